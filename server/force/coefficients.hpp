@@ -55,9 +55,10 @@ struct CuttingCoefficients {
   double friction_speed_exponent = 0.0;  ///< -0.9 to 0.9
 
   // Of EdgeFeedModel (edge_load.hpp):
-  /// Edge that was engaged in the thesis' experiments, mm, above 0: its reamer wholly in contact with a face
-  /// of 37.5 x 24.4 mm. Its true contact is unknown; specific energies of drilling say 7 to 25.
-  double edge_reference_mm = 60.0;
+  /// Edge that was engaged in the thesis' experiments, mm, above 0: its reamer (appendix A) wholly in contact
+  /// with a face of 37.5 x 24.4 mm, counted down to the axis. Its true contact is unknown; specific energies
+  /// of drilling say 7 to 25.
+  double edge_reference_mm = 70.5;
   /// phi, 0 to below 1: part of the load that is there however thin the chip. The thesis saw feed grow about
   /// linearly with thrust (5.2), which is 0; single saw teeth have 0.6 to 0.9.
   double edge_threshold_share = 0.0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/hash.hpp"
+
 namespace ream::force {
 namespace {
 
@@ -49,7 +51,19 @@ bool is_fitted_density(double density_g_cc) noexcept {
   return false;
 }
 
-EdgeFeedModel::EdgeFeedModel(const FeedSettings& settings, const CuttingTool&)
+std::array<uint32_t, 256> edge_resistances(double density_step_g_cc, size_t cartilage_code) {
+  std::array<uint32_t, 256> table;
+  for (size_t code = 0; code < table.size(); ++code) {
+    const double feed_mm_s = code == cartilage_code
+                                 ? cartilage_feed_mm_s
+                                 : reference_feed_mm_s(static_cast<double>(code) * density_step_g_cc);
+    table[code] =
+        static_cast<uint32_t>(std::clamp(std::lround(edge_resistance_codes_s_mm / feed_mm_s), 1L, 4095L));
+  }
+  return table;
+}
+
+EdgeFeedModel::EdgeFeedModel(const FeedSettings& settings, const Lip&)
     : settings_(settings),
       load_n_mm_(reference_thrust_n / settings.cutting.edge_reference_mm),
       max_feed_mm_s_(max_chip_mm * lip_count * settings.spindle_rad_s / (2.0 * pi)) {}
@@ -69,6 +83,12 @@ CuttingLoad EdgeFeedModel::load(const EngagedBone& bone, double thrust_n) const 
   load.resistance_n_s_mm = std::min(blocked_n_s_mm, resistance * (1.0 - threshold_share) * thrust / left_n);
   load.resistance_n_s_mm = std::max(load.resistance_n_s_mm, thrust / max_feed_mm_s_);
   return load;
+}
+
+uint64_t EdgeFeedModel::table_hash() const noexcept {
+  uint64_t hash = 0;
+  for (const uint32_t code : edge_resistances(0.01, 255)) hash = hash_combine(hash, code);
+  return hash;
 }
 
 }  // namespace ream::force

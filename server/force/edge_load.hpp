@@ -11,6 +11,11 @@ double reference_feed_mm_s(double density_g_cc) noexcept;
 /// True where reference_feed_mm_s was fitted.
 bool is_fitted_density(double density_g_cc) noexcept;
 
+/// 1 / reference_feed_mm_s by density code, code 0 first, `density_step_g_cc` apart; at `cartilage_code` that
+/// of cartilage. In 1/edge_resistance_codes_s_mm, 1 to 4095.
+std::array<uint32_t, 256> edge_resistances(double density_step_g_cc, size_t cartilage_code);
+inline constexpr double edge_resistance_codes_s_mm = 32.0;
+
 /// Feed by the cutting edge that is engaged, anchored at the thesis. At a place at radius r pass lip_count
 /// lips a turn, so edge per area is lip_count / (2 pi r). Every lip takes a chip as thick as the surface
 /// sinks in between, h = f cos(theta) / (n lip_count), and a load along its edge
@@ -19,8 +24,9 @@ bool is_fitted_density(double density_g_cc) noexcept;
 /// a rim cuts at once, and what a removed volume costs is the same for every contact.
 class EdgeFeedModel final : public FeedModel {
  public:
-  EdgeFeedModel(const FeedSettings& settings, const CuttingTool& tool);
+  EdgeFeedModel(const FeedSettings& settings, const Lip& lip);
   CuttingLoad load(const EngagedBone& bone, double thrust_n) const noexcept override;
+  uint64_t table_hash() const noexcept override;
 
  private:
   FeedSettings settings_;

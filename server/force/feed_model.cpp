@@ -26,8 +26,8 @@ double interpolated(const std::vector<double>& x, const std::vector<double>& y, 
 /// the feed that 52 N give.
 class EmpiricalFeedModel final : public FeedModel {
  public:
-  EmpiricalFeedModel(const FeedSettings& settings, const CuttingTool& tool)
-      : settings_(settings), table_(make_feed_table(tool.lip, settings.cutting, settings.spindle_rad_s)) {}
+  EmpiricalFeedModel(const FeedSettings& settings, const Lip& lip)
+      : settings_(settings), table_(make_feed_table(lip, settings.cutting, settings.spindle_rad_s)) {}
 
   CuttingLoad load(const EngagedBone& bone, double) const noexcept override {
     const double resistance = lawful_resistance_n_s_mm(bone, settings_);
@@ -47,10 +47,10 @@ class EmpiricalFeedModel final : public FeedModel {
 /// start threshold up). Full contact is assumed, whatever the engaged area, as in the empirical model.
 class ObliqueFeedModel final : public FeedModel {
  public:
-  ObliqueFeedModel(const FeedSettings& settings, const CuttingTool& tool)
+  ObliqueFeedModel(const FeedSettings& settings, const Lip& lip)
       : settings_(settings),
-        calibration_(make_feed_table(tool.lip, settings.cutting, reference_spindle_rad_s)),
-        table_(make_feed_table(tool.lip, settings.cutting, settings.spindle_rad_s)) {}
+        calibration_(make_feed_table(lip, settings.cutting, reference_spindle_rad_s)),
+        table_(make_feed_table(lip, settings.cutting, settings.spindle_rad_s)) {}
 
   CuttingLoad load(const EngagedBone& bone, double thrust_n) const noexcept override {
     const double thrust = std::max(thrust_n, start_threshold_n);
@@ -79,42 +79,16 @@ class ObliqueFeedModel final : public FeedModel {
   FeedTable calibration_, table_;
 };
 
-/// Experimental: bone is worn off rather than cut (Archard 1953, Preston 1927; thesis 5.2 suspects scraping
-/// at 156 rpm). The depth worn a second is k p v, with pressure p and sliding speed v = 2 pi r n at n
-/// revolutions a second. A cap that sinks evenly at f into a footprint of radius R needs
-///   p(r) = f / (2 pi k n r),   thrust F = integral of p 2 pi r dr over the footprint = f R / (k n),
-///   torque M = integral of friction p r 2 pi r dr = friction f R^2 / (2 k n) = friction F R / 2.
-/// So resistance grows with the square root of the engaged area A = pi R^2. k follows from the feed law: with
-/// the area of the planned seating 52 N give f(D). That area takes the bone as flat:
-/// where a hollow glenoid lets more of the cap touch, feed is slower than the law.
-class ScrapingFeedModel final : public FeedModel {
- public:
-  ScrapingFeedModel(const FeedSettings& settings, const CuttingTool& tool)
-      : settings_(settings), seated_radius_mm_(std::sqrt(tool.seated_area_mm2 / pi)) {}
-
-  CuttingLoad load(const EngagedBone& bone, double) const noexcept override {
-    const double radius_mm = std::sqrt(bone.area_mm2 / pi);
-    return {lawful_resistance_n_s_mm(bone, settings_) * radius_mm / seated_radius_mm_,
-            0.5 * settings_.cutting.friction * radius_mm};
-  }
-
- private:
-  FeedSettings settings_;
-  double seated_radius_mm_;
-};
-
 template <typename Model>
-std::unique_ptr<FeedModel> make(const FeedSettings& settings, const CuttingTool& tool) {
-  return std::make_unique<Model>(settings, tool);
+std::unique_ptr<FeedModel> make(const FeedSettings& settings, const Lip& lip) {
+  return std::make_unique<Model>(settings, lip);
 }
 
 constexpr std::array models{
     FeedModelEntry{"edge", "load along the engaged cutting edge", make<EdgeFeedModel>},
     FeedModelEntry{"thesis", "the thesis' law, whatever part of the reamer touches",
                    make<EmpiricalFeedModel>},
-    FeedModelEntry{"oblique", "cutting mechanics of its appendix A", make<ObliqueFeedModel>},
-    FeedModelEntry{"scraping", "experimental: wear, resistance grows with the engaged area",
-                   make<ScrapingFeedModel>}};
+    FeedModelEntry{"oblique", "cutting mechanics of its appendix A", make<ObliqueFeedModel>}};
 
 }  // namespace
 
@@ -199,8 +173,8 @@ std::string feed_model_names(const std::string& quote) {
   return names;
 }
 
-std::unique_ptr<FeedModel> make_feed_model(const FeedSettings& settings, const CuttingTool& tool) {
-  return models[static_cast<size_t>(settings.kind)].make(settings, tool);
+std::unique_ptr<FeedModel> make_feed_model(const FeedSettings& settings, const Lip& lip) {
+  return models[static_cast<size_t>(settings.kind)].make(settings, lip);
 }
 
 }  // namespace ream::force

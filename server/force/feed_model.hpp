@@ -49,7 +49,7 @@ class FeedModel {
   virtual uint64_t table_hash() const noexcept { return 0; }
 };
 
-enum class FeedKind { edge, empirical, oblique, scraping };
+enum class FeedKind { edge, empirical, oblique };
 
 struct FeedSettings {
   FeedKind kind = FeedKind::empirical;  ///< recordings from before there was a choice
@@ -63,17 +63,11 @@ struct FeedSettings {
   CuttingCoefficients cutting;
 };
 
-/// What a feed model knows of the tool.
-struct CuttingTool {
-  Lip lip;
-  double seated_area_mm2 = 1.0;  ///< of the cutting surface in bone at the planned seating, above 0
-};
-
 /// A feed model as command line, scripts and recordings name it.
 struct FeedModelEntry {
   const char* name;
   const char* description;  ///< a few words for people
-  std::unique_ptr<FeedModel> (*make)(const FeedSettings& settings, const CuttingTool& tool);
+  std::unique_ptr<FeedModel> (*make)(const FeedSettings& settings, const Lip& lip);
 };
 /// All there are, in the order of FeedKind. A new model is a FeedKind, a row of this table, and its name in
 /// proto/script.schema.json.
@@ -84,11 +78,11 @@ const char* to_text(FeedKind kind);
 std::optional<FeedKind> find_feed_kind(std::string_view name);
 /// The same; Error usage naming all models for any other.
 FeedKind feed_kind_from_text(const std::string& text);
-/// All names for messages, each between `quote`s: "edge, thesis, oblique or scraping".
+/// All names for messages, each between `quote`s: "edge, thesis or oblique".
 std::string feed_model_names(const std::string& quote = "");
 
 /// Errors: invalid_input when the lip cuts nothing, or its thrust does not rise with the feed.
-std::unique_ptr<FeedModel> make_feed_model(const FeedSettings& settings, const CuttingTool& tool);
+std::unique_ptr<FeedModel> make_feed_model(const FeedSettings& settings, const Lip& lip);
 
 /// Feed rate of one class (0 cancellous, 1 cortical, 2 cartilage) at the reference thrust and spindle speed,
 /// mm/s: thesis eqs 5.1 and 5.2 times the specimen's factor; never below min_feed_mm_s.

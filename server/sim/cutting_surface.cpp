@@ -12,7 +12,6 @@ namespace {
 using shell::ProfilePoint;
 
 constexpr double max_element_mm = 0.1;
-constexpr double min_seated_depth_mm = 0.1;
 
 /// Calls `visit` with both ends of every cutting segment, from the axis outwards.
 template <typename Visit>
@@ -39,7 +38,9 @@ void add_elements(force::Lip& lip, const ProfilePoint& a, const ProfilePoint& b,
   }
 }
 
-force::Lip make_lip(const shell::ToolProfile& profile) {
+}  // namespace
+
+force::Lip cutting_lip(const shell::ToolProfile& profile) {
   force::Lip lip;
   double cutting_radius_mm = 0.0;
   for_each_cutting_segment(profile, [&](const ProfilePoint& a, const ProfilePoint& b) {
@@ -54,34 +55,6 @@ force::Lip make_lip(const shell::ToolProfile& profile) {
     reached_mm = b.radius_mm;
   });
   return lip;
-}
-
-/// Area of a cone's side between two points of the meridian, as far as it is above z = floor.
-double area_above_mm2(const ProfilePoint& a, const ProfilePoint& b, double floor_mm) {
-  const ProfilePoint &high = a.z_mm >= b.z_mm ? a : b, &low = a.z_mm >= b.z_mm ? b : a;
-  if (high.z_mm <= floor_mm) return 0.0;
-  const double part = low.z_mm >= floor_mm ? 1.0 : (high.z_mm - floor_mm) / (high.z_mm - low.z_mm);
-  const double end_radius = high.radius_mm + part * (low.radius_mm - high.radius_mm);
-  const double dr = low.radius_mm - high.radius_mm, dz = high.z_mm - low.z_mm;
-  return pi * (high.radius_mm + end_radius) * part * std::sqrt(dr * dr + dz * dz);
-}
-
-double seated_area_mm2(const shell::ToolProfile& profile, double depth_mm) {
-  double top_mm = -std::numeric_limits<double>::infinity(), area_mm2 = 0.0;
-  for_each_cutting_segment(profile, [&](const ProfilePoint& a, const ProfilePoint& b) {
-    top_mm = std::max({top_mm, a.z_mm, b.z_mm});
-  });
-  const double floor_mm = top_mm - std::max(depth_mm, min_seated_depth_mm);
-  for_each_cutting_segment(profile, [&](const ProfilePoint& a, const ProfilePoint& b) {
-    area_mm2 += area_above_mm2(a, b, floor_mm);
-  });
-  return area_mm2;
-}
-
-}  // namespace
-
-force::CuttingTool cutting_tool(const shell::ToolProfile& profile, double seated_depth_mm) {
-  return {make_lip(profile), seated_area_mm2(profile, seated_depth_mm)};
 }
 
 SurfacePlace::SurfacePlace(const shell::ToolProfile& profile) {

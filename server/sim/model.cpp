@@ -16,19 +16,6 @@ Pose world_from_plan(const case_::Plan& plan) {
   return {rotation_with_z_along(plan.axis_direction), plan.entry_mm};
 }
 
-collide::ResistanceTable resistance_table() {
-  collide::ResistanceTable table;
-  for (size_t code = 0; code < table.size(); ++code) {
-    const double feed_mm_s =
-        code == voxel::cartilage_code
-            ? force::cartilage_feed_mm_s
-            : force::reference_feed_mm_s(static_cast<double>(code) * voxel::density_step_g_cc);
-    table[code] =
-        static_cast<uint32_t>(std::clamp(std::lround(resistance_codes_s_mm / feed_mm_s), 1L, 4095L));
-  }
-  return table;
-}
-
 Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool tool,
                  const Settings& settings) {
   case_::cut_pilot_hole(bone, plan);
@@ -46,7 +33,7 @@ Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool to
   model.contact_shell = collide::make_contact_shell(
       points, bone.grid.spacing_mm.maxCoeff(),
       by_decay ? collide::ContactRule::one_voxel_out : collide::ContactRule::at_surface);
-  model.resistances = resistance_table();
+  model.resistances = force::edge_resistances(voxel::density_step_g_cc, voxel::cartilage_code);
   if (by_decay) model.decay_shell = collide::make_decay_shell(points);
   model.distance = voxel::brick_distance(bone);
   if (model.distance.nothing())
@@ -57,7 +44,7 @@ Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool to
   model.tool_box_tool.include(Vec3(-r, -r, model.profile.body_min_z_mm));
   model.tool_box_tool.include(Vec3(r, r, model.profile.body_max_z_mm));
   model.vibration = force::make_vibration_tracks(settings.vibration, settings.random_seed);
-  model.feed = force::make_feed_model(settings.feed, cutting_tool(model.tool.profile, plan.depth_mm));
+  model.feed = force::make_feed_model(settings.feed, cutting_lip(model.tool.profile));
   model.virtual_mass = settings.virtual_mass;
   model.coupling = settings.virtual_mass
                        ? force::coupling_of(*settings.virtual_mass, settings.force_scale)

@@ -23,7 +23,7 @@ struct Model {
   shell::Tool tool;
   shell::SweptProfile profile;
   collide::ContactShell contact_shell;
-  collide::ResistanceTable resistances{};  ///< in 1/resistance_codes_s_mm
+  collide::ResistanceTable resistances{};  ///< force::edge_resistances
   collide::DecayShell decay_shell;         ///< empty unless bone is removed by decay
   voxel::BrickDistance distance;
   SurfacePlace surface_place;
@@ -44,9 +44,6 @@ struct Model {
 /// when the case has no plan or the guide does not fit, those of make_point_shell, swept_profile and
 /// make_feed_model.
 Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool tool, const Settings& settings);
-
-/// Entries of Model::resistances are 1 / force::reference_feed_mm_s in this part of 1 s/mm.
-inline constexpr double resistance_codes_s_mm = 32.0;
 
 /// Plan frame of a plan, chosen the same way every time.
 Pose world_from_plan(const case_::Plan& plan);

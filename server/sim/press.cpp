@@ -6,7 +6,7 @@
 
 #include "core/clock.hpp"
 #include "core/units.hpp"
-#include "force/coefficients.hpp"
+#include "force/edge_load.hpp"
 #include "sim/approach.hpp"
 
 namespace ream::sim {
@@ -48,7 +48,7 @@ force::EngagedBone engaged_bone(const Model& model, const collide::ContactSums& 
       static_cast<double>(sums.cutting.area) / shell::area_weights_a_face * model.contact_shell.cell_area_mm2;
   bone.edge_mm = max_translational(sums.cutting) * component * component * edge_mm_of_weight(model);
   bone.resistance_s_mm =
-      static_cast<double>(sums.resistance) / static_cast<double>(total) / resistance_codes_s_mm;
+      static_cast<double>(sums.resistance) / static_cast<double>(total) / force::edge_resistance_codes_s_mm;
   for (size_t k = 0; k < 3; ++k) {
     if (sums.class_weight[k] == 0) continue;
     const auto weight = static_cast<double>(sums.class_weight[k]);

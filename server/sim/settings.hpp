@@ -22,8 +22,9 @@ const char* to_text(RemovalLaw law);
 RemovalLaw removal_law_from_text(const std::string& text);
 
 /// What this build computes. Raised whenever the same input gives other bits. Recordings and scores name the
-/// one that they were made with; those from before it was written are of revision 1.
-inline constexpr int physics_revision = 1;
+/// one that they were made with; those from before it was written are of revision 1. Since 2 contact begins
+/// where the surfaces meet.
+inline constexpr int physics_revision = 2;
 
 /// How a session is to be simulated; everything that the same input needs to give the same bits.
 struct Settings {

@@ -70,6 +70,7 @@ struct Reaming {
     s.angular_stiffness_n_mm_rad = 1000.0 * s.stiffness_n_mm;
     s.energy_guarded = false;
     s.vibration.source = force::VibrationSource::off;
+    s.feed.kind = force::FeedKind::edge;
     return s;
   }
 

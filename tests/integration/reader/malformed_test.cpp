@@ -23,7 +23,7 @@ using test::slice_file, test::TemporaryFolder;
 
 constexpr uint64_t allowed_bytes = uint64_t{256} << 20;  // what a small bad file may take while it is read
 
-uint64_t virtual_bytes() {
+[[maybe_unused]] uint64_t virtual_bytes() {
   uint64_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
   return pages * static_cast<uint64_t>(::sysconf(_SC_PAGESIZE));

@@ -7,9 +7,9 @@
 namespace ream::force {
 namespace {
 
-std::unique_ptr<FeedModel> make_empirical(FeedSettings settings, Lip lip) {
+std::unique_ptr<FeedModel> make_empirical(FeedSettings settings, const Lip& lip) {
   settings.kind = FeedKind::empirical;
-  return make_feed_model(settings, {std::move(lip)});
+  return make_feed_model(settings, lip);
 }
 
 EngagedBone cortical_of_density(double density_g_cc) {

@@ -9,9 +9,9 @@
 namespace ream::force {
 namespace {
 
-std::unique_ptr<FeedModel> make_oblique(FeedSettings settings, Lip lip) {
+std::unique_ptr<FeedModel> make_oblique(FeedSettings settings, const Lip& lip) {
   settings.kind = FeedKind::oblique;
-  return make_feed_model(settings, {std::move(lip)});
+  return make_feed_model(settings, lip);
 }
 
 constexpr double reference_revolutions_s = 156.0 / 60.0;

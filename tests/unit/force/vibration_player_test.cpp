@@ -14,7 +14,7 @@ namespace {
 
 constexpr double speed_rad_s = rad_s_from_rpm(156.0);
 constexpr VibrationInput off{false, speed_rad_s, false, {}};
-constexpr VibrationInput idle{true, speed_rad_s, false, {}};
+constexpr VibrationInput turning_free{true, speed_rad_s, false, {}};
 
 VibrationInput reaming(double cancellous, double cortical, double cartilage = 0.0) {
   return {true, speed_rad_s, true, {cancellous, cortical, cartilage}};
@@ -44,7 +44,7 @@ TEST(VibrationPlayer, WithoutTracksIsStill) {
   VibrationPlayer off_source(make_vibration_tracks({.source = VibrationSource::off, .recordings = {}}, 1), 1);
   for (int i = 0; i < 100; ++i) {
     EXPECT_EQ(player.next_g(reaming(0.0, 1.0)), 0.0);
-    EXPECT_EQ(off_source.next_g(idle), 0.0);
+    EXPECT_EQ(off_source.next_g(turning_free), 0.0);
   }
 }
 
@@ -61,13 +61,13 @@ TEST(VibrationPlayer, FadesWithoutAStep) {
   };
   run(off, 100);
   EXPECT_EQ(before, 0.0);
-  run(idle, 25);
+  run(turning_free, 25);
   EXPECT_NEAR(before, 0.5, 1e-12);
-  run(idle, 25);
+  run(turning_free, 25);
   EXPECT_NEAR(before, 1.0, 1e-12) << "idle spin is not modulated";
   run(reaming(0.3, 0.7), 100);
   run(reaming(1.0, 0.0), 100);
-  run(idle, 100);
+  run(turning_free, 100);
   EXPECT_NEAR(before, 1.0, 1e-12);
   run(off, 50);
   EXPECT_NEAR(before, 0.0, 1e-12);
@@ -75,11 +75,11 @@ TEST(VibrationPlayer, FadesWithoutAStep) {
 
 TEST(VibrationPlayer, APauseIsStillAndFadesInAgain) {
   VibrationPlayer player(constant_tracks({1.0f, 1.0f, 1.0f, 1.0f}), 3);
-  for (int i = 0; i < 60; ++i) player.next_g(idle);
-  VibrationInput paused = idle;
+  for (int i = 0; i < 60; ++i) player.next_g(turning_free);
+  VibrationInput paused = turning_free;
   paused.paused = true;
   EXPECT_EQ(player.next_g(paused), 0.0);
-  EXPECT_NEAR(player.next_g(idle), 1.0 / 50.0, 1e-12);
+  EXPECT_NEAR(player.next_g(turning_free), 1.0 / 50.0, 1e-12);
 }
 
 TEST(VibrationPlayer, LipPassesKeepTheMeanSquare) {
@@ -122,8 +122,8 @@ TEST(VibrationPlayer, VariancesAddByShare) {
     EXPECT_NEAR(mean_square(player, input, 60000) / expected, 1.0, 0.05) << share;
   }
   VibrationPlayer player(tracks, 11);
-  mean_square(player, idle, 100);
-  EXPECT_NEAR(mean_square(player, idle, 20000) / (0.05 * 0.05), 1.0, 1e-6) << "a whole loop";
+  mean_square(player, turning_free, 100);
+  EXPECT_NEAR(mean_square(player, turning_free, 20000) / (0.05 * 0.05), 1.0, 1e-6) << "a whole loop";
 }
 
 TEST(VibrationPlayer, TheSeedChoosesWhereTracksStart) {
@@ -141,11 +141,11 @@ TEST(VibrationPlayer, TheSeedChoosesWhereTracksStart) {
 TEST(VibrationSound, HasSamplesForEveryTick) {
   VibrationSound sound(constant_tracks({0.0f, 0.0f, 0.0f, 2.0f}), 3);
   std::vector<float> samples;
-  sound.render(std::vector<VibrationInput>(1, idle), samples);
+  sound.render(std::vector<VibrationInput>(1, turning_free), samples);
   EXPECT_EQ(samples.size(), 1u);
-  for (int i = 0; i < 20; ++i) sound.render(std::vector<VibrationInput>(1, idle), samples);
+  for (int i = 0; i < 20; ++i) sound.render(std::vector<VibrationInput>(1, turning_free), samples);
   EXPECT_EQ(samples.size(), 1u + 441u);
-  sound.render(std::vector<VibrationInput>(980, idle), samples);
+  sound.render(std::vector<VibrationInput>(980, turning_free), samples);
   EXPECT_EQ(samples.size(), 1u + 22050u);
   EXPECT_NEAR(samples.front(), 2.0f / 50.0f, 1e-6);
   EXPECT_NEAR(samples.back(), 2.0f, 1e-6);
@@ -159,7 +159,7 @@ TEST(VibrationSound, IsWhatTheHandFeels) {
   // A loop that begins and ends in silence, so that it can be resampled as one.
   std::vector<VibrationInput> ticks;
   for (int i = 0; i < 4000; ++i)
-    ticks.push_back(i < 500 || i >= 3500 ? off : i < 1000 ? idle : reaming(i / 4000.0, 1.0 - i / 4000.0));
+    ticks.push_back(i < 500 || i >= 3500 ? off : i < 1000 ? turning_free : reaming(i / 4000.0, 1.0 - i / 4000.0));
   std::vector<float> heard;
   for (size_t i = 0; i < ticks.size(); i += 500) sound.render(std::span(ticks).subspan(i, 500), heard);
   heard.resize(4000 / ticks_a_beat * sound_samples_a_beat);

@@ -184,7 +184,7 @@ TEST(VerifyReplay, GuidedInBoneThatGivesWay) {
 }
 
 TEST(VerifyReplay, EveryFeedModelAndVibration) {
-  for (const char* model : {"oblique", "scraping"}) {
+  for (const char* model : {"thesis", "oblique"}) {
     SCOPED_TRACE(model);
     RecordedReaming reaming;
     json script = RecordedReaming::push("sigma.7");

@@ -14,10 +14,10 @@ using shell::SurfaceRole;
 
 shell::ToolProfile profile_of(const std::string& words) { return shell::parametric_profile(words); }
 
-TEST(CuttingTool, LipReachesFromItsOffsetToTheRim) {
+TEST(CuttingLip, LipReachesFromItsOffsetToTheRim) {
   for (const char* words : {"ellipse 18.25,9", "sphere 8,5", "sphere 30"}) {
     const shell::ToolProfile profile = profile_of(words);
-    const force::Lip lip = cutting_tool(profile, 2.0).lip;
+    const force::Lip lip = cutting_lip(profile);
     const double rim = profile.max_radius_mm();
     EXPECT_NEAR(lip.offset_mm, rim * std::sin(radians_from_degrees(9.46)), 1e-12) << words;
     double at = lip.offset_mm;
@@ -32,9 +32,9 @@ TEST(CuttingTool, LipReachesFromItsOffsetToTheRim) {
   }
 }
 
-TEST(CuttingTool, PointAnglesAreTheEllipses) {
+TEST(CuttingLip, PointAnglesAreTheEllipses) {
   constexpr double a = 18.25, b = 9.0;
-  for (const force::LipElement& e : cutting_tool(profile_of("ellipse 18.25,9"), 2.0).lip.elements) {
+  for (const force::LipElement& e : cutting_lip(profile_of("ellipse 18.25,9")).elements) {
     const double rise = b * e.radius_mm / (a * std::sqrt(a * a - e.radius_mm * e.radius_mm));
     if (e.radius_mm < 0.99 * a) {
       EXPECT_NEAR(e.point_angle_cosine / e.point_angle_sine, rise, 0.005 * (1.0 + rise)) << e.radius_mm;
@@ -45,13 +45,13 @@ TEST(CuttingTool, PointAnglesAreTheEllipses) {
   }
 }
 
-TEST(CuttingTool, ANippleHasNoLip) {
-  const force::Lip lip = cutting_tool(profile_of("thesis"), 2.0).lip;
+TEST(CuttingLip, ANippleHasNoLip) {
+  const force::Lip lip = cutting_lip(profile_of("thesis"));
   EXPECT_NEAR(lip.offset_mm, 16.0 * std::sin(radians_from_degrees(9.46)), 1e-12);
   EXPECT_NEAR(lip.elements.front().radius_mm - 0.5 * lip.elements.front().radial_width_mm, 3.0, 1e-12);
 }
 
-TEST(CuttingTool, WallsAndHiddenPartsCutNothing) {
+TEST(CuttingLip, WallsAndHiddenPartsCutNothing) {
   // A flat to 6 mm, a step back, a groove that a wider part covers, and a hollow that comes forward again.
   const shell::ToolProfile profile{
       {{0.0, 0.0},
@@ -64,7 +64,7 @@ TEST(CuttingTool, WallsAndHiddenPartsCutNothing) {
        {0.0, -6.0}},
       {SurfaceRole::cutting, SurfaceRole::cutting, SurfaceRole::cutting, SurfaceRole::cutting,
        SurfaceRole::cutting, SurfaceRole::smooth, SurfaceRole::smooth}};
-  const force::Lip lip = cutting_tool(profile, 2.0).lip;
+  const force::Lip lip = cutting_lip(profile);
   double length = lip.offset_mm;
   for (const force::LipElement& e : lip.elements) {
     length += e.radial_width_mm;
@@ -76,17 +76,6 @@ TEST(CuttingTool, WallsAndHiddenPartsCutNothing) {
     }
   }
   EXPECT_NEAR(length, 10.0, 1e-9);
-}
-
-TEST(CuttingTool, SeatedAreaIsTheCaps) {
-  // Archimedes: a cap of height h of a sphere has the area 2 pi R h.
-  for (const double depth_mm : {0.1, 0.5, 1.7})
-    EXPECT_NEAR(cutting_tool(profile_of("sphere 8,5"), depth_mm).seated_area_mm2, 2.0 * pi * 8.0 * depth_mm,
-                1e-3 * 2.0 * pi * 8.0 * depth_mm);
-  const double whole = 2.0 * pi * 8.0 * (8.0 - std::sqrt(64.0 - 25.0));
-  EXPECT_NEAR(cutting_tool(profile_of("sphere 8,5"), 50.0).seated_area_mm2, whole, 1e-3 * whole);
-  EXPECT_EQ(cutting_tool(profile_of("sphere 8,5"), 0.0).seated_area_mm2,
-            cutting_tool(profile_of("sphere 8,5"), 0.1).seated_area_mm2);
 }
 
 }  // namespace

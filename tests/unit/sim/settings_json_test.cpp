@@ -74,6 +74,7 @@ std::string pointer_of(std::string path) {
 /// What a key is when nobody says it: null within parts that are not there by default.
 json default_at(const json::json_pointer& place) {
   Settings settings;
+  settings.physics = 1;  // of recordings from before it was written
   const json without_parts = to_json(settings);
   if (without_parts.contains(place)) return without_parts.at(place);
   settings.virtual_mass.emplace();

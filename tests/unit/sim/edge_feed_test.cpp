@@ -1,0 +1,155 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "force/coefficients.hpp"
+#include "force/edge_load.hpp"
+#include "support/small_run.hpp"
+
+namespace ream::test {
+namespace {
+
+constexpr double post_top_mm = 9.0, post_voxel_mm = 0.3;
+constexpr double pressed_n = 52.0, hard_g_cc = 1.5;
+/// Of the thesis: eq. 5.1 at 1.5 g/cc; lips; edge engaged in its experiments as the model takes it.
+constexpr double law_mm_s = 0.035, lips = 5.0, reference_edge_mm = 70.5;
+
+/// Bone whose cross-section has this signed distance (mm, negative inside) from its border, plan frame.
+voxel::BoneModel post(const std::function<double(double, double)>& outside_mm, double density_g_cc) {
+  voxel::BoneModel bone = slab({136, 136, 48}, post_voxel_mm, post_top_mm, density_g_cc);
+  const Pose plan_from_world = sim::world_from_plan(slab_plan(bone, post_top_mm)).inverse();
+  for (int w = 0; w < 48; ++w)
+    for (int v = 0; v < 136; ++v)
+      for (int u = 0; u < 136; ++u) {
+        const Vec3 at = plan_from_world.point(
+            bone.grid.world_from_grid.point((Vec3(u, v, w) + Vec3::Constant(0.5)) * post_voxel_mm));
+        const double kept =
+            std::clamp(127.5 - 255.0 * outside_mm(at.x(), at.y()) / post_voxel_mm, 0.0, 255.0);
+        uint8_t& coverage = bone.coverage[bone.grid.index(u, v, w)];
+        coverage = std::min(coverage, static_cast<uint8_t>(kept));
+      }
+  return bone;
+}
+
+voxel::BoneModel round_post(double area_mm2, double aside_mm, double density_g_cc = hard_g_cc) {
+  const double radius_mm = std::sqrt(area_mm2 / pi);
+  return post([=](double x, double y) { return std::hypot(x - aside_mm, y) - radius_mm; }, density_g_cc);
+}
+
+/// The second half of two seconds of pressing.
+struct Pressing {
+  double feed_mm_s = 0.0;
+  record::TickReport last;
+  Pose plan_from_world;
+
+  Vec3 hand_force_n() const { return plan_from_world.rotation * last.hand_force_n; }
+};
+
+Pressing press(voxel::BoneModel bone, const char* tool, double force_n = pressed_n) {
+  const case_::Plan plan = slab_plan(bone, post_top_mm);
+  device::Script script = steady_push(force_n, 2.0);
+  script.stiffness_n_mm = 400.0;
+  SmallRun run(std::move(bone), plan, tool, script, "cpu", sim::RemovalLaw::profile, force::FeedKind::edge);
+  const auto reports = run.run();
+  const auto &a = reports[1000], &b = reports.back();
+  const Vec3 way_mm = b.world_from_tool.translation_mm - a.world_from_tool.translation_mm;
+  return {way_mm.dot(plan.axis_direction) / (1e-3 * static_cast<double>(b.tick - a.tick)), b,
+          run.model.world_from_plan.inverse()};
+}
+
+/// A tool that is all but flat where it touches.
+constexpr const char* flat_tool = "ellipse 30,0.2";
+
+TEST(EdgeFeed, AConcentricPunchFeedsByItsRadius) {
+  // Edge of a disc of radius R: integral of lips / (2 pi r) 2 pi r dr.
+  for (const double area_mm2 : {30.0, 100.0, 300.0, 600.0}) {
+    const double edge_mm = lips * std::sqrt(area_mm2 / pi);
+    const Pressing steady = press(round_post(area_mm2, 0.0), flat_tool);
+    EXPECT_NEAR(steady.feed_mm_s, law_mm_s * reference_edge_mm / edge_mm,
+                0.05 * law_mm_s * reference_edge_mm / edge_mm)
+        << area_mm2;
+    // A hand as soft as this one, 20 N/mm, holds the smallest post within 0.05 mm of the axis.
+    const double sideways_n = std::hypot(steady.hand_force_n().x(), steady.hand_force_n().y());
+    EXPECT_LT(sideways_n, (area_mm2 < 50.0 ? 0.03 : 0.02) * pressed_n) << area_mm2;
+    // Torque: load q along the edge times r: q (lips / 2 pi) A, with q = F / edge.
+    const double torque_n_mm = pressed_n / edge_mm * lips / (2.0 * pi) * area_mm2;
+    EXPECT_NEAR(steady.last.spindle_torque_n_mm, torque_n_mm, 0.06 * torque_n_mm) << area_mm2;
+  }
+}
+
+TEST(EdgeFeed, OffTheAxisItFeedsFastAndPullsAcrossTheTurn) {
+  constexpr double aside_mm = 9.0, area_mm2 = 50.0;
+  const Pressing steady = press(round_post(area_mm2, aside_mm), flat_tool);
+  const double feed_mm_s = law_mm_s * reference_edge_mm / (lips * area_mm2 / (2.0 * pi * aside_mm));
+  EXPECT_NEAR(steady.feed_mm_s, feed_mm_s, 0.12 * feed_mm_s);
+  // Lips pass the post from +x towards +y and are held back there: the tool goes the other way, until the
+  // hand holds it.
+  const Vec3 tool_mm = steady.plan_from_world.point(steady.last.world_from_tool.translation_mm);
+  const Vec3 to_post_mm(aside_mm - tool_mm.x(), -tool_mm.y(), 0.0);
+  EXPECT_LT(tool_mm.y(), -1.0) << "it walks";
+  const Vec3 expected_n =
+      Vec3(to_post_mm.y(), -to_post_mm.x(), 0.0) * steady.last.spindle_torque_n_mm / to_post_mm.squaredNorm();
+  const Vec3 hand_n = steady.hand_force_n();
+  EXPECT_GT(expected_n.norm(), 0.85 * pressed_n);
+  EXPECT_NEAR(hand_n.x(), expected_n.x(), 0.1 * expected_n.norm());
+  EXPECT_NEAR(hand_n.y(), expected_n.y(), 0.1 * expected_n.norm());
+}
+
+TEST(EdgeFeed, TheThesisReamerFullySeatedFeedsAsItMeasured) {
+  const shell::ToolProfile profile = shell::make_tool("thesis-appendix-a").profile;
+  for (const double density_g_cc : {0.42, 0.55, 0.70, 1.32, 1.45, 1.60}) {
+    const double law = density_g_cc < 1.0 ? -0.34 * density_g_cc + 0.42 : -0.05 * density_g_cc + 0.11;
+    // A face of 37.5 x 24.4 mm that has the reamer's shape: it is seated from the first touch.
+    voxel::BoneModel bone = post(
+        [](double x, double y) {
+          const double scale = std::hypot(x / 18.75, y / 12.2);
+          return (scale - 1.0) * std::hypot(x, y) / std::max(scale, 1e-9);
+        },
+        density_g_cc);
+    const Pose plan_from_world = sim::world_from_plan(slab_plan(bone, post_top_mm)).inverse();
+    for (size_t i = 0; i < bone.coverage.size(); ++i) {
+      const Vec3 centre = (bone.grid.coordinates(i).cast<double>() + Vec3::Constant(0.5)) * post_voxel_mm;
+      const Vec3 at = plan_from_world.point(bone.grid.world_from_grid.point(centre));
+      const double above = shell::swept_distance_mm(profile, std::hypot(at.x(), at.y()), at.z() - 9.0 + 1.0);
+      const double left = std::clamp(127.5 + 255.0 * above / post_voxel_mm, 0.0, 255.0);
+      bone.coverage[i] = std::min(bone.coverage[i], static_cast<uint8_t>(left));
+    }
+    const Pressing steady = press(std::move(bone), "thesis-appendix-a");
+    EXPECT_NEAR(steady.feed_mm_s, law, 0.02 * law) << density_g_cc;
+    EXPECT_GT(steady.last.spindle_torque_n_mm, 240.0) << density_g_cc;
+    EXPECT_LT(steady.last.spindle_torque_n_mm, 900.0) << density_g_cc;
+  }
+}
+
+TEST(EdgeFeed, TheLawFallsWithDensityWithoutAGapAndNeverStops) {
+  double before = force::reference_feed_mm_s(0.0);
+  for (double density_g_cc = 0.01; density_g_cc < 2.6; density_g_cc += 0.002) {
+    const double feed = force::reference_feed_mm_s(density_g_cc);
+    EXPECT_LE(feed, before) << density_g_cc;
+    EXPECT_GT(feed, 0.98 * before) << "a step at " << density_g_cc;
+    before = feed;
+  }
+  EXPECT_GT(before, 0.005);
+  EXPECT_TRUE(force::is_fitted_density(0.6));
+  EXPECT_FALSE(force::is_fitted_density(1.0));
+}
+
+TEST(EdgeFeed, AThresholdHoldsThinChipsBack) {
+  force::FeedSettings settings;
+  settings.kind = force::FeedKind::edge;
+  settings.cutting.edge_threshold_share = 0.3;
+  const auto model = force::make_feed_model(settings, {});
+  force::EngagedBone seated;
+  seated.share = {0.0, 1.0, 0.0};
+  seated.edge_mm = reference_edge_mm;
+  seated.resistance_s_mm = 1.0 / law_mm_s;
+  const auto feed = [&](double force_n) { return force_n / model->load(seated, force_n).resistance_n_s_mm; };
+  EXPECT_NEAR(feed(52.0), law_mm_s, 1e-9);
+  EXPECT_LT(feed(15.0), 1e-4) << "below 0.3 of 52 N nothing";
+  EXPECT_NEAR(feed(78.0) / law_mm_s, (78.0 / 52.0 - 0.3) / 0.7, 1e-9);
+}
+
+}  // namespace
+}  // namespace ream::test
