@@ -44,7 +44,7 @@ class EmpiricalFeedModel final : public FeedModel {
 /// Appendix A: thrust and torque of the lips at a feed per revolution, with kc(D) such that at the reference
 /// spindle speed 52 N give the feed law's f(D). Classes under the reamer act side by side: their kc add by
 /// share. Thrust against feed is the table's, so resistance is the secant at the last tick's thrust (from the
-/// start threshold up). Full contact is assumed, whatever the engaged area, as in the empirical model.
+/// start threshold up). Full contact is assumed, whatever the engaged area, as in the thesis' model.
 class ObliqueFeedModel final : public FeedModel {
  public:
   ObliqueFeedModel(const FeedSettings& settings, const Lip& lip)

@@ -23,7 +23,7 @@ struct RunRequest {
   std::string feed_model;  ///< empty: the script's
   std::string tool;        ///< empty: the plan's reamer
   std::optional<shell::ToolAxis> tool_axis;
-  double tool_spacing_mm = 0.2;
+  double tool_spacing_mm = 0.3;
   std::optional<double> force_scale;   ///< overrides the script's
   bool at_most_scripts_scale = false;  ///< more than the script's is refused
   uint64_t random_seed = 1;

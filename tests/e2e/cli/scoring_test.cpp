@@ -42,6 +42,9 @@ class Scoring : public CommandLine {
         {"stiffness_n_mm", 100},
         {"specimen_factor", 10},
         {"hand", {{"start_mm", {0, 0, start_mm}}, {"force_profile", {{{"t_s", 0}, {"force_n", force_n}}}}}}};
+    run_script(case_name, script);
+  }
+  void run_script(const std::string& case_name, const json& script) {
     write("push.json", script.dump());
     succeed({"simulate", "--case", case_name, "--script", "push.json", "--out", "run", "--backend", "cpu"});
   }
@@ -102,7 +105,14 @@ TEST_F(Scoring, OfACaseWithoutLandmarks) {
 /// The reamer goes through and leaves slivers at the corners.
 TEST_F(Scoring, OfBoneThatIsAllButGone) {
   make_block();
-  simulate("block", 8.0, 90.0, -1.0);
+  // So far beyond the block that the cap has all but reached its corners.
+  run_script(
+      "block",
+      {{"device", "poses"},
+       {"duration_s", 8},
+       {"stiffness_n_mm", 100},
+       {"specimen_factor", 10},
+       {"poses", {{{"t_s", 0}, {"position_mm", {0, 0, -1}}}, {{"t_s", 6}, {"position_mm", {0, 0, 6.45}}}}}});
   const json told = expect_sound();
   constexpr double hole_mm3 = 3.14159 * 3.1 * 3.1 * 6.0;
   const double removed_mm3 = told.at("metrics").at("removed_volume_mm3").get<double>();
