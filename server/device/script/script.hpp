@@ -97,7 +97,7 @@ struct Script {
   std::string device_profile = "ideal";
   double spindle_rpm = 156.0;
   std::string feed_model = "edge";  ///< one of force::feed_models()
-  double specimen_factor = 1.0;          ///< feed of this specimen over the feed law's
+  double specimen_factor = 1.0;     ///< feed of this specimen over the feed law's
   ScriptVibration vibration;
   std::optional<ScapulaMount> mount;  ///< empty: the bone is held rigidly
   HandParameters hand;

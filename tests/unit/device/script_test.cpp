@@ -192,7 +192,7 @@ TEST(Script, WrongTypesAndRangesAreRefusedByPlaceAndKey) {
   expect_refused(with(hand_script(), "/duration_s", 0.0), "'duration_s' is 0");
   expect_refused(with(hand_script(), "/duration_s", -1.0), "'duration_s'");
   expect_refused(with(hand_script(), "/force_scale", 0.0), "'force_scale'");
-  expect_refused(with(hand_script(), "/feed_model", "rubbing"), "'feed_model' must be 'empirical'");
+  expect_refused(with(hand_script(), "/feed_model", "rubbing"), "'feed_model' must be 'edge'");
   expect_refused(with(hand_script(), "/hand", 7), "run.json.hand");
   expect_refused(with(hand_script(), "/hand/start_mm", {1, 2}), "'start_mm' must be a list of 3 numbers");
   expect_refused(with(hand_script(), "/hand/start_mm", {1, 2, "3"}), "'start_mm'");
