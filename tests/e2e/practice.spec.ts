@@ -47,7 +47,8 @@ async function untilRemoved(page: Page, mm3: number): Promise<void> {
 }
 
 async function expectNoMoreRemoval(page: Page): Promise<void> {
-  await expect.poll(() => figure(page, 'hand-force'), { timeout: 10_000 }).toBeLessThan(0.3);
+  // The reamer comes to rest on the bone with less than what cuts, 1 N.
+  await expect.poll(() => figure(page, 'hand-force'), { timeout: 10_000 }).toBeLessThan(1);
   const session = (await readout(page)).sessionId ?? '';
   await ticksPass(page, session, 400);
   const before = await figure(page, 'removed-volume');
