@@ -158,8 +158,11 @@ TEST(VibrationSound, IsWhatTheHandFeels) {
   VibrationSound sound(tracks, 17);
   // A loop that begins and ends in silence, so that it can be resampled as one.
   std::vector<VibrationInput> ticks;
+  ticks.reserve(4000);
   for (int i = 0; i < 4000; ++i)
-    ticks.push_back(i < 500 || i >= 3500 ? off : i < 1000 ? turning_free : reaming(i / 4000.0, 1.0 - i / 4000.0));
+    ticks.push_back(i < 500 || i >= 3500 ? off
+                    : i < 1000           ? turning_free
+                                         : reaming(i / 4000.0, 1.0 - i / 4000.0));
   std::vector<float> heard;
   for (size_t i = 0; i < ticks.size(); i += 500) sound.render(std::span(ticks).subspan(i, 500), heard);
   heard.resize(4000 / ticks_a_beat * sound_samples_a_beat);
