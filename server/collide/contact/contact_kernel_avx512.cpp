@@ -84,7 +84,7 @@ struct Voxels {
 /// `places` are in 2^-bits voxel.
 REAM_AVX512 inline __m512i move_to_ramp(const Lens& l, __m512i normals, const __m512i places[3],
                                         Voxels& voxels) {
-  // Bytes x y z 0 as signed pairs (x, z) and (y, 0).
+  // Bytes x y z and the weight, as signed pairs (x, z) and (y, weight); normal_y takes the weight times 0.
   const __m512i xz = _mm512_srai_epi16(_mm512_slli_epi16(normals, 8), 8), y = _mm512_srai_epi16(normals, 8);
   const __m512i zero = _mm512_setzero_si512(), one = _mm512_set1_epi32(1), full = _mm512_set1_epi32(255);
   const __m512i half = _mm512_set1_epi32(1 << (judge_rotation_bits - 1));
