@@ -53,6 +53,14 @@ struct DeviceTraits {
   double force_expires_ms = std::numeric_limits<double>::infinity();
 };
 
+/// What is asked of drive and irrigation, beside that the spindle turns at all.
+struct DriveControls {
+  uint8_t trigger = 255;  ///< how far it is pressed while the spindle is on; 255: full speed
+  bool reversed = false;  ///< the spindle turns the other way, in which lips do not cut
+  bool irrigating = false;
+  bool operator==(const DriveControls&) const = default;
+};
+
 struct DeviceInput {
   Pose world_from_handle;                ///< sensed; of admittance devices only the first one counts
   Vec3 hand_force_n = Vec3::Zero();      ///< of the hand on the device, world frame; admittance devices only
@@ -60,6 +68,7 @@ struct DeviceInput {
   double age_ms = 0.0;  ///< since the hardware said all this; infinite: it has never said anything
   // Buttons, true while they are pressed.
   bool spindle_on = false;
+  DriveControls drive;
   bool paused = false;
   bool clutch = false;  ///< the hand moves without the tool
   bool deadman = true;  ///< somebody holds the handle; true of devices that cannot tell

@@ -66,6 +66,7 @@ DeviceStatus MappedDevice::read(DeviceInput& input) noexcept {
   input.paused = sensed_.paused || session_paused_ || sensed_.clutch || !sensed_.deadman ||
                  input.age_ms >= traits_.stale.lost_ms;
   input.spindle_on = sensed_.spindle_on && sensed_.deadman;
+  input.drive = sensed_.drive;
   follow(input.paused, since_ms);
   input.world_from_handle = world_from_handle_;
   input.hand_force_n = world_from_device_ * sensed_.hand_force_n;

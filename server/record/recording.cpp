@@ -13,7 +13,8 @@ using nlohmann::json;
 uint32_t flags_of(const TickReport& r) {
   return (r.spindle_on ? spindle_on_flag : 0u) | (r.paused ? paused_flag : 0u) |
          (r.failed_over ? failed_over_flag : 0u) | (r.engaged ? engaged_flag : 0u) |
-         (r.cutting ? cutting_flag : 0u) | (r.weakened ? weakened_flag : 0u) | (r.stale ? stale_flag : 0u);
+         (r.cutting ? cutting_flag : 0u) | (r.weakened ? weakened_flag : 0u) | (r.stale ? stale_flag : 0u) |
+         (r.stalled ? stalled_flag : 0u) | drive_flags(r.drive);
 }
 
 /// Takes the ops it names; ops::read() passes over the others unread.
@@ -25,6 +26,16 @@ template <typename... Takers>
 Taking(Takers...) -> Taking<Takers...>;
 
 }  // namespace
+
+uint32_t drive_flags(const device::DriveControls& drive) noexcept {
+  return (drive.reversed ? reversed_flag : 0u) | (drive.irrigating ? irrigating_flag : 0u) |
+         (255u - drive.trigger) << trigger_slack_shift;
+}
+
+device::DriveControls drive_of_flags(uint32_t flags) noexcept {
+  return {static_cast<uint8_t>(255u - (flags >> trigger_slack_shift & 255u)), (flags & reversed_flag) != 0,
+          (flags & irrigating_flag) != 0};
+}
 
 std::string grid_to_text(const voxel::VoxelGrid& grid) {
   const auto list = [](const auto& v) { return json{v.x(), v.y(), v.z()}; };
@@ -93,6 +104,8 @@ ops::Tick tick_op(const TickReport& r) {
   t.removed_cortical = static_cast<int32_t>(r.coverage_removed[1]);
   t.removed_cartilage = static_cast<int32_t>(r.coverage_removed[2]);
   t.changed_bricks = r.changed_bricks;
+  t.spindle_speed_rad_s = f(r.spindle_speed_rad_s);
+  t.surface_temperature_c = f(r.surface_temperature_c);
   return t;
 }
 
@@ -106,6 +119,8 @@ TickReport report_of(const ops::Tick& t, const Pose& world_from_grid) {
   r.cutting = (t.flags & cutting_flag) != 0;
   r.weakened = (t.flags & weakened_flag) != 0;
   r.stale = (t.flags & stale_flag) != 0;
+  r.stalled = (t.flags & stalled_flag) != 0;
+  r.drive = drive_of_flags(t.flags);
   r.world_from_handle_q = t.world_from_handle;
   r.grid_from_tool = t.grid_from_tool;
   r.world_from_handle = dequantised(t.world_from_handle);
@@ -130,6 +145,8 @@ TickReport report_of(const ops::Tick& t, const Pose& world_from_grid) {
   r.coverage_removed[1] = t.removed_cortical;
   r.coverage_removed[2] = t.removed_cartilage;
   r.changed_bricks = t.changed_bricks;
+  r.spindle_speed_rad_s = t.spindle_speed_rad_s;
+  r.surface_temperature_c = t.surface_temperature_c;
   return r;
 }
 

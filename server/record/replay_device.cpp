@@ -12,6 +12,7 @@ void set_input(const QuantisedPose& world_from_handle, uint32_t flags, device::D
   input.spindle_on = (flags & spindle_on_flag) != 0;
   input.paused = (flags & paused_flag) != 0;
   input.stale = (flags & stale_flag) != 0;
+  input.drive = drive_of_flags(flags);
 }
 
 }  // namespace

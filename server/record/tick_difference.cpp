@@ -34,11 +34,13 @@ constexpr std::array<Column<int32_t>, 3> removed_columns{
 constexpr std::array<Column<uint32_t>, 2> counts{{{"bone", "changed_bricks", &Tick::changed_bricks},
                                                   {"contact", "engaged_points", &Tick::engaged_points}}};
 
-constexpr std::array<Column<float>, 19> results{
+constexpr std::array<Column<float>, 21> results{
     {{"force", "thrust_n", &Tick::thrust_n},
      {"force", "torque_n_mm", &Tick::torque_n_mm},
      {"force", "spindle_torque_n_mm", &Tick::spindle_torque_n_mm},
      {"force", "guide_force_n", &Tick::guide_force_n},
+     {"force", "spindle_speed_rad_s", &Tick::spindle_speed_rad_s},
+     {"heat", "surface_temperature_c", &Tick::surface_temperature_c},
      {"contact", "feed_rate_mm_s", &Tick::feed_rate_mm_s},
      {"contact", "density_g_cc", &Tick::density_g_cc},
      {"contact", "share_cancellous", &Tick::share_cancellous},

@@ -14,8 +14,15 @@ enum TickFlag : uint32_t {
   engaged_flag = 8,
   cutting_flag = 16,
   weakened_flag = 32,
-  stale_flag = 64
+  stale_flag = 64,
+  reversed_flag = 128,
+  irrigating_flag = 256,
+  stalled_flag = 512
 };
+
+/// Beside the flags: how far the trigger is from being pressed all the way, so that 0 is what older
+/// recordings had.
+inline constexpr int trigger_slack_shift = 16;
 
 /// When a tick began and how long its parts took, us.
 struct TickTiming {
@@ -31,6 +38,8 @@ struct TickReport {
   /// The hand feels noticeably less than the simulated contact force over the force scale: a limit, the slew
   /// limit or the energy guard is at work.
   bool weakened = false;
+  bool stalled = false;  ///< the drive cannot turn the reamer against the bone
+  device::DriveControls drive;
   bool stale = false;  ///< a cause: the pose was too old, the force on the hand fades out
   device::LinkState link = device::LinkState::fresh;  ///< of the device; not recorded
   bool held = false;         ///< paused by somebody else than the device, whatever it says; not recorded
@@ -42,14 +51,16 @@ struct TickReport {
   Vec3 hand_force_n = Vec3::Zero();      ///< sent to the device, world frame
   Vec3 hand_vibration_n = Vec3::Zero();  ///< the part of it that is vibration
   Vec3 hand_torque_n_mm = Vec3::Zero();
-  double thrust_n = 0.0;             ///< simulated, along the tool axis, pressing into the bone positive
-  double torque_n_mm = 0.0;          ///< simulated, magnitude of the moment about the tool's origin
-  double spindle_torque_n_mm = 0.0;  ///< simulated, that turns the spindle; the hand holds against it
-  double guide_force_n = 0.0;        ///< simulated, that the guide takes; in no other figure but the hand's
-  double vibration_g = 0.0;          ///< acceleration of the tool beside what contact does
-  double feed_rate_mm_s = 0.0;       ///< of the tool along its axis while engaged
-  double density_g_cc = 0.0;         ///< mean of the engaged cutting points
-  double share[3] = {0, 0, 0};       ///< cancellous, cortical, cartilage
+  double thrust_n = 0.0;               ///< simulated, along the tool axis, pressing into the bone positive
+  double torque_n_mm = 0.0;            ///< simulated, magnitude of the moment about the tool's origin
+  double spindle_torque_n_mm = 0.0;    ///< simulated, that turns the spindle; the hand holds against it
+  double spindle_speed_rad_s = 0.0;    ///< as simulated; reversed negative
+  double surface_temperature_c = 0.0;  ///< of the bone under the reamer; 0: not simulated
+  double guide_force_n = 0.0;          ///< simulated, that the guide takes; in no other figure but the hand's
+  double vibration_g = 0.0;            ///< acceleration of the tool beside what contact does
+  double feed_rate_mm_s = 0.0;         ///< of the tool along its axis while engaged
+  double density_g_cc = 0.0;           ///< mean of the engaged cutting points
+  double share[3] = {0, 0, 0};         ///< cancellous, cortical, cartilage
   int64_t engaged_points = 0;
   int64_t coverage_removed[3] = {0, 0, 0};  ///< this tick, coverage levels (1/255 voxel) by class
   uint32_t changed_bricks = 0;
@@ -57,5 +68,9 @@ struct TickReport {
   uint64_t session_hash = 0;    ///< rolling, up to and including this tick
   TickTiming timing;            ///< of this computer; not recorded
 };
+
+/// What of a tick's flags a drive's controls are, and back.
+uint32_t drive_flags(const device::DriveControls& drive) noexcept;
+device::DriveControls drive_of_flags(uint32_t flags) noexcept;
 
 }  // namespace ream::record

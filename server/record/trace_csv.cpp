@@ -59,7 +59,8 @@ const std::string& TraceCsv::header_line() {
       "vibration_g,hand_weakened,"
       "feed_rate_mm_s,density_g_cc,"
       "share_cancellous,share_cortical,share_cartilage,engaged_points,removed_volume_mm3,"
-      "bone_x_mm,bone_y_mm,bone_z_mm,bone_qw,bone_qx,bone_qy,bone_qz";
+      "bone_x_mm,bone_y_mm,bone_z_mm,bone_qw,bone_qx,bone_qy,bone_qz,"
+      "spindle_speed_rad_s,stalled,irrigating,surface_temperature_c";
   return line;
 }
 
@@ -91,6 +92,10 @@ void TraceCsv::add(const TickReport& r) {
   row.add(r.share[0]).add(r.share[1]).add(r.share[2]).add(r.engaged_points);
   row.add(static_cast<double>(coverage_removed_) / 255.0 * voxel_volume_mm3_);
   row.add(r.world_from_bone_rest);
+  row.add(r.spindle_speed_rad_s)
+      .add(static_cast<int64_t>(r.stalled))
+      .add(static_cast<int64_t>(r.drive.irrigating));
+  row.add(r.surface_temperature_c);
   row.write(file_);
 }
 

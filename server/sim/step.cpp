@@ -50,7 +50,8 @@ bool move_tool(const Model& model, State& state, const device::DeviceInput& inpu
 uint64_t hash_of_cause(const TickReport& report) {
   uint64_t h = hash_combine(report.tick, static_cast<uint64_t>(report.spindle_on) |
                                              static_cast<uint64_t>(report.paused) << 1 |
-                                             static_cast<uint64_t>(report.stale) << 2);
+                                             static_cast<uint64_t>(report.stale) << 2 |
+                                             static_cast<uint64_t>(record::drive_flags(report.drive)) << 8);
   for (const int32_t q : report.grid_from_tool.rotation_q30) h = hash_combine(h, static_cast<uint32_t>(q));
   for (const int32_t q : report.grid_from_tool.translation_nm) h = hash_combine(h, static_cast<uint32_t>(q));
   return h;
@@ -84,6 +85,7 @@ StepStatus step(const Model& model, State& state, const device::DeviceInput& raw
   report.spindle_on = raw_input.spindle_on;
   report.paused = raw_input.paused;
   report.stale = raw_input.stale;
+  report.drive = raw_input.drive;
   const Pose handle = world_from_handle(model, state, raw_input);
   if (!is_usable(handle)) return StepStatus::not_finite;
   report.world_from_handle_q = quantised(handle);

@@ -117,7 +117,8 @@ Message telemetry_message(const TelemetryBatch& batch, uint32_t dropped) {
       static_cast<wire::SessionState>(newest.state), newest.depth_mm, newest.removed_volume_mm3,
       newest.cortical_share, dropped, newest.tick_mean_us, newest.tick_p99_us, newest.ticks_missed,
       builder.CreateString(newest.fault.data(), fault_length), newest.world_from_bone_rest ? &bone : nullptr,
-      playback, column(builder, batch, &TelemetrySample::vibration_g), static_cast<uint64_t>(batch.stamp_us));
+      playback, column(builder, batch, &TelemetrySample::vibration_g), static_cast<uint64_t>(batch.stamp_us),
+      newest.spindle_speed_rad_s, newest.surface_temperature_c, newest.irrigating, newest.stalled);
   return finished(builder, wire::Body::Telemetry, telemetry);
 }
 

@@ -32,7 +32,9 @@ struct TelemetrySample {
   float vibration_g = 0;   ///< acceleration of the tool beside what contact does
   Pose world_from_tool, world_from_handle;
   std::optional<Pose> world_from_bone_rest;  ///< how far the bone has moved; empty: it is held rigidly
-  bool spindle_on = false;
+  bool spindle_on = false, irrigating = false, stalled = false;
+  float spindle_speed_rad_s = 0;    ///< as simulated; reversed negative
+  float surface_temperature_c = 0;  ///< of the bone under the reamer; 0: not simulated
   SessionState state = SessionState::created;
   float depth_mm = 0, removed_volume_mm3 = 0;
   float cortical_share = 0;

@@ -42,6 +42,8 @@ bool take_common(const Table& table, InputMessage& message) {
   message.echo_age_us = table.echo_age_us();
   message.input.spindle_on = has(wire::Button::spindle);
   message.input.paused = has(wire::Button::pause);
+  message.input.drive = {static_cast<uint8_t>(255 - table.trigger_slack()), has(wire::Button::reverse),
+                         has(wire::Button::irrigate)};
   message.input.clutch = has(wire::Button::clutch);
   message.input.deadman = has(wire::Button::deadman);
   return (pressed & ~static_cast<unsigned>(wire::Button::ANY)) == 0;

@@ -69,6 +69,7 @@ DeviceStatus NetworkDevice::read(DeviceInput& input) noexcept {
   input.age_ms = end_.age_ms();
   input.hand_force_n = Vec3(newest_.hand_force_n[0], newest_.hand_force_n[1], newest_.hand_force_n[2]);
   input.spindle_on = newest_.spindle_on;
+  input.drive = newest_.drive;
   input.paused = newest_.paused;
   input.clutch = newest_.clutch;
   input.deadman = newest_.deadman;

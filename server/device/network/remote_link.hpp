@@ -22,6 +22,7 @@ struct RemoteInput {
   std::array<double, 3> sideways_mm{};  ///< from the planned entry
   std::array<double, 3> lean{};         ///< all zero: along the planned axis
   double push_n = 0.0;
+  DriveControls drive;
   bool spindle_on = false, paused = false, clutch = false, deadman = true;
 };
 

@@ -134,6 +134,9 @@ std::vector<TimedButtons> parse_buttons(JsonReader& reader) {
     b.t_s = previous_s = next_time(entry, previous_s);
     b.spindle = entry.boolean_or("spindle", true);
     b.pause = entry.boolean_or("pause", false);
+    b.drive.trigger = static_cast<uint8_t>(std::lround(255.0 * entry.number_or("trigger", 1.0, 0.0, 1.0)));
+    b.drive.reversed = entry.boolean_or("reverse", false);
+    b.drive.irrigating = entry.boolean_or("irrigate", false);
     entry.finish();
     buttons.push_back(b);
   }

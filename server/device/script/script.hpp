@@ -39,6 +39,7 @@ struct TimedButtons {
   double t_s = 0.0;
   bool spindle = true;
   bool pause = false;
+  DriveControls drive;
 };
 
 /// How the hand turns under torque, about the orientation that it holds.

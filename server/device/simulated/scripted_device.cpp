@@ -130,6 +130,7 @@ DeviceStatus ScriptedDevice::read(DeviceInput& input) noexcept {
   if (t_s >= script_.duration_s) return DeviceStatus::finished;
   const TimedButtons buttons = buttons_at(script_.buttons, t_s);
   input.spindle_on = buttons.spindle;
+  input.drive = buttons.drive;
   input.paused = buttons.pause || session_paused_;
   if (!act(t_s, input)) return DeviceStatus::finished;
   if (!session_paused_) ++tick_;

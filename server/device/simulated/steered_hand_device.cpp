@@ -79,6 +79,7 @@ class SteeredHandDevice final : public HapticDevice {
     end_.take(command_);
     input.age_ms = end_.age_ms();
     input.spindle_on = command_.spindle_on;
+    input.drive = command_.drive;
     input.paused = command_.paused || session_paused_;
     if (input.paused || end_.age_ms() >= traits_.stale.lost_ms)
       rest();

@@ -37,6 +37,10 @@ void update_sample(const record::TickReport& r, stream::TelemetrySample& sample)
   sample.world_from_bone_rest.reset();
   if (!is_at_rest(r.world_from_bone_rest)) sample.world_from_bone_rest = r.world_from_bone_rest;
   sample.spindle_on = r.spindle_on;
+  sample.spindle_speed_rad_s = static_cast<float>(r.spindle_speed_rad_s);
+  sample.surface_temperature_c = static_cast<float>(r.surface_temperature_c);
+  sample.irrigating = r.drive.irrigating;
+  sample.stalled = r.stalled;
   sample.cortical_share = static_cast<float>(r.share[static_cast<size_t>(voxel::BoneClass::cortical)]);
 }
 
