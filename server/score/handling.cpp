@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/clock.hpp"
+#include "force/edge_load.hpp"
 #include "voxel/bone_model.hpp"
 
 namespace ream::score {
@@ -90,6 +91,9 @@ void Handling::add(const record::TickReport& r, const Vec3& in_bone_mm, double a
   ++ticks_;
   contact_ticks_ += r.engaged ? 1 : 0;
   weakened_ticks_ += r.weakened ? 1 : 0;
+  extrapolated_ticks_ += r.cutting && !force::is_fitted_density(r.density_g_cc) ? 1 : 0;
+  stalls_ += r.stalled && !stalled_ ? 1 : 0;
+  stalled_ = r.stalled;
   thrust_.add(r, axial_mm);
   breakthrough_.add(r, axial_mm);
   plate_stop_.add(r, axial_mm);
@@ -103,6 +107,8 @@ void Handling::write(MetricResults& results) const {
   results.set_exact("duration_s", duration_s());
   results.set_exact("contact_time_s", static_cast<double>(contact_ticks_) * tick_s);
   results.set_exact("weakened_time_s", static_cast<double>(weakened_ticks_) * tick_s);
+  results.set("spindle_stalls", stalls_);
+  results.set_exact("extrapolated_time_s", static_cast<double>(extrapolated_ticks_) * tick_s);
   thrust_.write(results);
   write_advances(results);
   results.set("passes", passes_.count());

@@ -110,7 +110,9 @@ class Handling {
  private:
   void write_advances(MetricResults& results) const;
 
-  int64_t ticks_ = 0, contact_ticks_ = 0, weakened_ticks_ = 0;
+  int64_t ticks_ = 0, contact_ticks_ = 0, weakened_ticks_ = 0, extrapolated_ticks_ = 0;
+  int stalls_ = 0;
+  bool stalled_ = false;
   Thrust thrust_;
   Breakthrough breakthrough_;
   PlateStop plate_stop_;

@@ -204,6 +204,15 @@ constexpr Metric catalogue[] = {
     {"weakened_time_s", "Time of weakened force", "s",
      "Time in which the hand felt noticeably less than was simulated.", "limits of the device", tested,
      exact_sum, handling, ticks, not_negative, only_reported},
+    {"spindle_stalls", "Spindle stalls", "",
+     "How often bone held the reamer still while the trigger was pressed: started under load, or pressed too "
+     "hard.",
+     "surgeons are taught to start the reamer before it touches bone", judgement, exact_sum, handling, ticks,
+     not_negative, only_reported, Better::less},
+    {"extrapolated_time_s", "Time in bone nobody measured", "s",
+     "Time of cutting bone whose mean density lies outside 0.41 to 0.72 and 1.30 to 1.61 g/cc, where the feed "
+     "laws were measured.",
+     "thesis table 5.1", tested, exact_sum, handling, ticks, not_negative, only_reported},
     {"path_in_contact_mm", "Path in contact", "mm",
      "Length of the way of the tool's apex in the bone's frame while it touches bone.", time_and_motion,
      published, exact_sum, handling, ticks, not_negative, only_reported, Better::less},

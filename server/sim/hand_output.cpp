@@ -1,6 +1,7 @@
 #include "sim/hand_output.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "sim/model.hpp"
 
@@ -18,8 +19,8 @@ force::Wrench contact_on_hand(const Model& model, const Pose& world_from_tool, c
 }
 
 /// The drive's housing is turned against the spindle, hand N mm, world frame.
-Vec3 spindle_on_hand(const Model& model, const Pose& world_from_tool, const ToolLoad& load) {
-  return world_from_tool.rotation.col(2) * (-load.spindle_torque_n_mm / model.coupling.force_scale);
+Vec3 spindle_on_hand(const Model& model, const Pose& world_from_tool, double torque_n_mm) {
+  return world_from_tool.rotation.col(2) * (-torque_n_mm / model.coupling.force_scale);
 }
 
 /// Energy in the coupling's spring, hand side, mJ.
@@ -55,11 +56,16 @@ double HandOutput::fade(bool stale) noexcept {
   return 1.0 - static_cast<double>(faded_ticks) / fade_ticks;
 }
 
-force::VibrationInput vibration_input(const Model& model, const record::TickReport& report) noexcept {
-  return {report.spindle_on,
-          model.settings.feed.spindle_rad_s,
+force::VibrationInput vibration_input(const Model& model, const ToolLoad& load,
+                                      const record::TickReport& report) noexcept {
+  const double speed_rad_s = std::abs(report.spindle_speed_rad_s);
+  const double cut = force::cut_strength(report.thrust_n, speed_rad_s, load.edge_mm);
+  const auto& specimen = model.vibration_of_specimen;
+  return {speed_rad_s > 0.0,
+          speed_rad_s,
           report.cutting,
           {report.share[0], report.share[1], report.share[2]},
+          {cut * specimen[0], cut * specimen[1], cut * specimen[2]},
           report.paused};
 }
 
@@ -85,7 +91,7 @@ void render(const Model& model, HandOutput& output, const Pose& world_from_tool,
   const force::Wrench simulated = contact_on_hand(model, world_from_tool, load);
   if (renders) {
     contact = force::limited(simulated, limits);
-    spindle_n_mm = spindle_on_hand(model, world_from_tool, load);
+    spindle_n_mm = spindle_on_hand(model, world_from_tool, report.spindle_torque_n_mm);
   }
   if (!model.virtual_mass) {
     output.energy.observe(report.world_from_handle);

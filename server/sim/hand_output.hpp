@@ -1,6 +1,7 @@
 #pragma once
 #include "device/haptic_device.hpp"
 #include "force/hand_safety.hpp"
+#include "force/spindle.hpp"
 #include "force/vibration/vibration_player.hpp"
 #include "record/tick_report.hpp"
 
@@ -10,9 +11,10 @@ struct Model;
 
 /// What acts on the tool at the end of a tick: simulated N and N mm, tool frame, about the tool's origin.
 struct ToolLoad {
-  force::Wrench spring;              ///< that the coupling puts on the tool
-  double spindle_torque_n_mm = 0.0;  ///< that turns the spindle, about +z
-  bool cuts = false;                 ///< pressed enough, and turning
+  force::Wrench spring;        ///< that the coupling puts on the tool
+  force::SpindleLoad spindle;  ///< what holds the spindle back
+  bool cuts = false;           ///< pressed enough, and turning
+  double edge_mm = 0.0;        ///< cutting edge that is engaged, see force::EngagedBone
   /// What the spring between handle and tool would put on the hand without any limit, hand N.
   double unlimited_force_n = 0.0;
 };
@@ -37,7 +39,8 @@ struct HandOutput {
 };
 
 /// What a tick says about vibration, as the tick itself plays it.
-force::VibrationInput vibration_input(const Model& model, const record::TickReport& report) noexcept;
+force::VibrationInput vibration_input(const Model& model, const ToolLoad& load,
+                                      const record::TickReport& report) noexcept;
 
 /// What is written to a device after a tick.
 device::DeviceOutput output_of(const record::TickReport& report) noexcept;

@@ -44,6 +44,9 @@ Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool to
   model.tool_box_tool.include(Vec3(-r, -r, model.profile.body_min_z_mm));
   model.tool_box_tool.include(Vec3(r, r, model.profile.body_max_z_mm));
   model.vibration = force::make_vibration_tracks(settings.vibration, settings.random_seed);
+  for (size_t k = 0; k < 3 && settings.vibration.source == force::VibrationSource::synthesized; ++k)
+    model.vibration_of_specimen[k] =
+        force::specimen_vibration(static_cast<force::VibrationKind>(k), settings.random_seed);
   model.feed = force::make_feed_model(settings.feed, cutting_lip(model.tool.profile));
   model.virtual_mass = settings.virtual_mass;
   model.coupling = settings.virtual_mass

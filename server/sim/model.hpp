@@ -29,7 +29,8 @@ struct Model {
   SurfacePlace surface_place;
   Aabb tool_box_tool;  ///< around probes and swept body
   std::unique_ptr<force::FeedModel> feed;
-  std::shared_ptr<const force::VibrationTracks> vibration;  ///< empty: the reamer does not vibrate
+  std::shared_ptr<const force::VibrationTracks> vibration;     ///< empty: the reamer does not vibrate
+  std::array<double, 3> vibration_of_specimen{1.0, 1.0, 1.0};  ///< see force::specimen_vibration
   force::CouplingParameters coupling;
   std::optional<force::VirtualMass> virtual_mass;
   std::optional<force::Guide> guide;

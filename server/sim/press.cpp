@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/clock.hpp"
 #include "core/units.hpp"
@@ -28,6 +29,9 @@ void add(force::Mat6& m, const collide::ContactSums::Part& part, double moment_l
 double max_translational(const collide::ContactSums::Part& part) {
   return static_cast<double>(std::max({part.second[0], part.second[6], part.second[11]}));
 }
+
+/// 1 N moves 1 kg with 1000 mm/s^2.
+constexpr double mm_s2_per_n_kg = 1000.0;
 
 /// Of weights and components of the contact sums: 1/127 each.
 constexpr double component = 1.0 / 127.0;
@@ -108,28 +112,13 @@ force::Vec6 sideways_pull(const collide::ContactSums& sums, double load_n, doubl
 
 /// Load of the edge along its normal, N per unit of weight, that gives the force with which the cut resisted
 /// this motion.
-double edge_load_n(const force::Resistance& cut, const force::Vec6& motion, const Vec3& normal) {
+double load_of_cut_n(const force::Resistance& cut, const force::Vec6& motion, const Vec3& normal) {
   double along_n = 0.0;
   for (size_t i = 0; i < 3; ++i)
     for (size_t j = 0; j < 6; ++j)
       along_n += normal[static_cast<Eigen::Index>(i)] * cut.cutting[6 * i + j] * motion[j] / tick_s;
   const double squared = normal.squaredNorm();
   return squared > 0.0 ? std::max(0.0, along_n / squared) : 0.0;
-}
-
-/// How the engaged surface slid in the tick before.
-force::Sliding sliding(const Model& model, const State& state, const force::EngagedBone& bone,
-                       const Vec3& outward, bool spindle_on) {
-  const auto& t = state.tool_twist;
-  force::Sliding s;
-  s.point_mm = model.surface_place.point_mm(-outward);
-  s.normal_force_n = state.normal_force_n;
-  const Vec3 velocity_mm_s = Vec3(t[0], t[1], t[2]) + Vec3(t[3], t[4], t[5]).cross(s.point_mm);
-  s.along_speed_mm_s = (velocity_mm_s - outward * outward.dot(velocity_mm_s)).norm();
-  s.turn_speed_rad_s = (spindle_on ? model.settings.feed.spindle_rad_s : 0.0) + std::abs(t[5]);
-  // Of a disc with the engaged area.
-  s.mean_radius_mm = 2.0 / 3.0 * std::sqrt(bone.area_mm2 / pi);
-  return s;
 }
 
 /// The coupling as far as it may stretch now: to the device's largest force, less while that ramps up.
@@ -153,6 +142,75 @@ struct Pressed {
   }
 };
 
+/// A tool on bone in one tick, before it moves.
+struct Contact {
+  const Model& model;
+  const State& state;
+  const collide::ContactSums& sums;
+  const force::EngagedBone& bone;
+  const force::CuttingLoad& cutting;
+  const force::Vec6 delta;  ///< handle minus tool
+
+  /// The tick's coupling when the lips cut, or when they only rub.
+  Pressed pressed(bool cuts) const {
+    // At a given thrust the feed per revolution stays.
+    const double slowed = cuts ? model.settings.feed.spindle_rad_s / state.spindle.speed_rad_s() : 1.0;
+    force::Resistance resistance = contact_resistance(model, sums, cutting.resistance_n_s_mm * slowed, cuts);
+    const force::Resistance without_friction = resistance;
+    force::Sliding slid = sliding(resistance.outward);
+    if (cuts && cutting.tangential_ratio > 0.0) slid.friction = cutting.tangential_ratio;
+    resistance.pull = sideways_pull(sums, drag_n(cuts), slid.point_mm.z());
+    force::add_friction(slid, resistance);
+    return {force::couple(yielding(model, state), resistance, delta, tick_s), without_friction,
+            resistance.outward};
+  }
+
+  /// Load of the edge along its normal, N per unit of weight.
+  double edge_load_n(const Pressed& pressed, bool cuts) const {
+    const Vec3 normal = weighted_normal(sums);
+    if (cuts) return load_of_cut_n(pressed.resistance, pressed.step.tool_motion, normal);
+    const double size = normal.norm();
+    return size > 0.0 ? std::max(0.0, pressed.normal_force_n()) / size : 0.0;
+  }
+
+  force::SpindleLoad holding_back(const State& after, double thrust_n, bool cuts, bool reversed) const {
+    force::SpindleLoad load;
+    load.lips_bite = bone.any() && !reversed && after.normal_force_n >= force::start_threshold_n;
+    const double ratio = reversed ? force::friction_coefficient : cutting.tangential_ratio;
+    load.torque_n_mm = ratio > 0.0 ? ratio * after.edge_load_n * collide::edge_radius_mm *
+                                         static_cast<double>(sums.cutting.area)
+                                   : cutting.torque_arm_mm * std::max(0.0, thrust_n);
+    // Standing steel rests on the few points that stand out; under load it sinks in until more of them carry
+    // it.
+    if (!cuts && ratio > 0.0)
+      load.torque_n_mm =
+          std::min(load.torque_n_mm, ratio * std::max(0.0, thrust_n) * model.profile.max_radius_mm);
+    return load;
+  }
+
+ private:
+  /// Along the lips' path, N per unit of weight, of the load of the tick before; lips that turn backwards
+  /// rub.
+  double drag_n(bool cuts) const {
+    if (cuts) return cutting.tangential_ratio * state.edge_load_n;
+    return state.spindle.speed_rad_s() < 0.0 ? -force::friction_coefficient * state.edge_load_n : 0.0;
+  }
+
+  /// How the engaged surface slid in the tick before.
+  force::Sliding sliding(const Vec3& outward) const {
+    const auto& t = state.tool_twist;
+    force::Sliding s;
+    s.point_mm = model.surface_place.point_mm(-outward);
+    s.normal_force_n = state.normal_force_n;
+    const Vec3 velocity_mm_s = Vec3(t[0], t[1], t[2]) + Vec3(t[3], t[4], t[5]).cross(s.point_mm);
+    s.along_speed_mm_s = (velocity_mm_s - outward * outward.dot(velocity_mm_s)).norm();
+    s.turn_speed_rad_s = std::abs(state.spindle.speed_rad_s()) + std::abs(t[5]);
+    // Of a disc with the engaged area.
+    s.mean_radius_mm = 2.0 / 3.0 * std::sqrt(bone.area_mm2 / pi);
+    return s;
+  }
+};
+
 }  // namespace
 
 force::Vec6 handle_minus_tool(const Pose& world_from_tool, const Pose& world_from_handle) noexcept {
@@ -168,57 +226,71 @@ Pose moved(const Pose& world_from_tool, const force::Vec6& motion, double fracti
           world_from_tool.translation_mm + world_from_tool.rotation * (fraction * shift)};
 }
 
+double max_travel_mm(const Model& model, const State& state, double stretch_mm) noexcept {
+  if (!model.settings.spindle || model.virtual_mass) return std::numeric_limits<double>::infinity();
+  const force::CouplingParameters coupling = yielding(model, state);
+  const double force_n =
+      coupling.stiffness_n_mm * coupling.force_scale * std::min(stretch_mm, coupling.stretch_max_mm);
+  const double gained_mm_s = mm_s2_per_n_kg * force_n / model.settings.spindle->mass_kg * tick_s;
+  return (state.tool_speed_mm_s + gained_mm_s) * tick_s;
+}
+
+ToolLoad slip(const Model& model, const State& state, const Pose& world_from_handle) noexcept {
+  const force::CouplingParameters coupling = yielding(model, state);
+  const force::Vec6 delta = handle_minus_tool(state.world_from_tool, world_from_handle);
+  const Vec3 stretch_mm(delta[0], delta[1], delta[2]);
+  ToolLoad load;
+  load.spring.force_n =
+      coupling.stiffness_n_mm * coupling.force_scale * clamp_length(stretch_mm, coupling.stretch_max_mm);
+  load.unlimited_force_n = model.coupling.stiffness_n_mm * stretch_mm.norm();
+  return load;
+}
+
 ToolLoad press(const Model& model, State& state, const collide::ContactSums& sums,
                const device::DeviceInput& input, TickReport& report) noexcept {
   const force::EngagedBone bone = engaged_bone(model, sums);
   const force::CuttingLoad cutting =
       bone.any() ? model.feed->load(bone, state.thrust_n) : force::CuttingLoad{};
-  const force::Vec6 delta = handle_minus_tool(state.world_from_tool, input.world_from_handle);
-  const force::CouplingParameters coupling = yielding(model, state);
-  const auto press_when = [&](bool cuts) {
-    force::Resistance resistance = contact_resistance(model, sums, cutting.resistance_n_s_mm, cuts);
-    const force::Resistance without_friction = resistance;
-    force::Sliding slid = sliding(model, state, bone, resistance.outward, input.spindle_on);
-    if (cuts && cutting.tangential_ratio > 0.0) {
-      slid.friction = cutting.tangential_ratio;
-      resistance.pull = sideways_pull(sums, cutting.tangential_ratio * state.edge_load_n, slid.point_mm.z());
-    }
-    force::add_friction(slid, resistance);
-    return Pressed{force::couple(coupling, resistance, delta, tick_s), without_friction, resistance.outward};
-  };
-  bool cuts = input.spindle_on;
-  Pressed pressed = press_when(cuts);
+  const Contact contact{model, state,   sums,
+                        bone,  cutting, handle_minus_tool(state.world_from_tool, input.world_from_handle)};
+  const bool turns_forward =
+      state.spindle.speed_rad_s() > force::Spindle::standing_share * model.settings.feed.spindle_rad_s;
+  bool cuts = turns_forward;
+  Pressed pressed = contact.pressed(cuts);
   if (cuts && pressed.normal_force_n() < force::start_threshold_n) {
     cuts = false;
-    pressed = press_when(cuts);
+    pressed = contact.pressed(cuts);
   }
-  const force::CouplingStep& coupled = pressed.step;
 
   const Pose before = state.world_from_tool;
-  state.world_from_tool = moved_within_a_voxel(model, before, coupled.tool_motion);
+  const auto& d = contact.delta;
+  const double stretch_mm = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  force::Vec6 motion = pressed.step.tool_motion;
+  const double travel_mm = std::sqrt(motion[0] * motion[0] + motion[1] * motion[1] + motion[2] * motion[2]);
+  const double travelled_mm = (before.translation_mm - state.tick_from_mm).norm();
+  const double most_mm = std::max(0.0, max_travel_mm(model, state, stretch_mm + travelled_mm) - travelled_mm);
+  if (travel_mm > most_mm)
+    for (double& part : motion) part *= most_mm / travel_mm;
+  state.world_from_tool = moved_within_a_voxel(model, before, motion);
   state.free_path_mm = -1.0;
-  for (size_t i = 0; i < 6; ++i) state.tool_twist[i] = coupled.tool_motion[i] / tick_s;
+  for (size_t i = 0; i < 6; ++i) state.tool_twist[i] = motion[i] / tick_s;
 
-  const auto& w = coupled.wrench_on_tool;
+  const auto& w = pressed.step.wrench_on_tool;
   ToolLoad load;
   load.spring = {Vec3(w[0], w[1], w[2]), Vec3(w[3], w[4], w[5])};
-  load.unlimited_force_n = model.coupling.stiffness_n_mm * Vec3(delta[0], delta[1], delta[2]).norm();
+  load.unlimited_force_n =
+      model.coupling.stiffness_n_mm * Vec3(contact.delta[0], contact.delta[1], contact.delta[2]).norm();
   load.cuts = cuts;
-  state.edge_load_n =
-      cuts ? edge_load_n(pressed.resistance, coupled.tool_motion, weighted_normal(sums)) : 0.0;
-  if (cuts && cutting.tangential_ratio > 0.0)
-    load.spindle_torque_n_mm = cutting.tangential_ratio * state.edge_load_n * collide::edge_radius_mm *
-                               static_cast<double>(sums.cutting.area);
-  else if (cuts)
-    load.spindle_torque_n_mm = cutting.torque_arm_mm * std::max(0.0, w[2]);
+  load.edge_mm = bone.edge_mm;
   state.normal_force_n = std::max(0.0, pressed.normal_force_n());
+  state.edge_load_n = contact.edge_load_n(pressed, cuts);
+  load.spindle = contact.holding_back(state, w[2], cuts, input.drive.reversed);
 
   report.engaged = true;
-  report.weakened = coupled.yielded;
+  report.weakened = pressed.step.yielded;
   report.cutting = cuts;
   report.thrust_n = w[2];
   report.torque_n_mm = load.spring.torque_n_mm.norm();
-  report.spindle_torque_n_mm = load.spindle_torque_n_mm;
   report.feed_rate_mm_s =
       before.rotation.col(2).dot(state.world_from_tool.translation_mm - before.translation_mm) / tick_s;
   report.density_g_cc = bone.mean_density_g_cc();

@@ -125,6 +125,17 @@ void for_each_field(Visitor& v, Either<force::FeedSettings> auto& feed) {
 }
 
 template <typename Visitor>
+void for_each_field(Visitor& v, Either<force::SpindleSettings> auto& spindle) {
+  v.field("stall_torque_n_mm", spindle.stall_torque_n_mm);
+  v.field("droop_rad_s_per_n_mm", spindle.droop_rad_s_per_n_mm);
+  v.field("inertia_kg_mm2", spindle.inertia_kg_mm2);
+  v.field("start_s", spindle.start_s);
+  v.field("coast_s", spindle.coast_s);
+  v.field("catch_ratio", spindle.catch_ratio);
+  v.field("mass_kg", spindle.mass_kg);
+}
+
+template <typename Visitor>
 void for_each_field(Visitor& v, Either<force::VibrationRecordings> auto& recordings) {
   v.field("cortical", recordings.cortical);
   v.field("cancellous", recordings.cancellous);
@@ -173,6 +184,7 @@ void for_each_field(Visitor& v, Either<Settings> auto& settings) {
   v.field("stiffness_n_mm", settings.stiffness_n_mm);
   v.field("angular_stiffness_n_mm_rad", settings.angular_stiffness_n_mm_rad);
   v.part("feed", settings.feed);
+  v.part("spindle", settings.spindle);
   v.part("vibration", settings.vibration);
   v.part("limits", settings.limits);
   v.field("start_up_ramp_s", settings.start_up_ramp_s);

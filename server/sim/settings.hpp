@@ -9,6 +9,7 @@
 #include "device/scapula_mount.hpp"
 #include "force/coupling.hpp"
 #include "force/feed_model.hpp"
+#include "force/spindle.hpp"
 #include "force/vibration/vibration_tracks.hpp"
 #include "force/wrench.hpp"
 
@@ -23,8 +24,8 @@ RemovalLaw removal_law_from_text(const std::string& text);
 
 /// What this build computes. Raised whenever the same input gives other bits. Recordings and scores name the
 /// one that they were made with; those from before it was written are of revision 1. Since 2 contact begins
-/// where the surfaces meet.
-inline constexpr int physics_revision = 2;
+/// where the surfaces meet; since 3 the spindle is a drive with its own speed.
+inline constexpr int physics_revision = 3;
 
 /// How a session is to be simulated; everything that the same input needs to give the same bits.
 struct Settings {
@@ -37,6 +38,7 @@ struct Settings {
   double stiffness_n_mm = 2.0;  ///< coupling, hand side
   double angular_stiffness_n_mm_rad = 2000.0;
   force::FeedSettings feed;
+  std::optional<force::SpindleSettings> spindle;  ///< empty: it turns as it is asked to, whatever holds it
   force::VibrationSettings vibration;
   force::DeviceLimits limits;
   double start_up_ramp_s = 0.0;  ///< see force::StartUpRamp

@@ -9,6 +9,7 @@ State::State(const Model& model, voxel::BoneModel& bone_in, const ResumeState& f
       reserve(backend.name == "cpu" ? Backend{} : make_cpp_backend(model, bone_in, cells)),
       schedule(model.profile, bone_in),
       tick(from.tick),
+      spindle(model.settings.spindle),
       output(model.settings.start_up_ramp_s),
       vibration(model.vibration, model.settings.random_seed),
       world_from_grid(bone_in.grid.world_from_grid),

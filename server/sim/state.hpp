@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "collide/removal/removal_schedule.hpp"
+#include "force/spindle.hpp"
 #include "force/vibration/vibration_player.hpp"
 #include "record/tick_report.hpp"
 #include "sim/backend.hpp"
@@ -51,13 +52,18 @@ struct State {
   /// Whatever way the tool moves, as far as this no point of it meets bone (mm). 0: it touches nothing where
   /// it stands; negative: nobody has looked there yet.
   double free_path_mm = -1.0;
-  size_t nearest_block = 0;     ///< of the shell to bone, when that was last looked for
-  force::Vec6 tool_twist{};     ///< of the last tick, tool frame: mm/s, rad/s
-  double thrust_n = 0.0;        ///< simulated, of the last tick
-  double normal_force_n = 0.0;  ///< simulated, of the last tick, that presses tool and bone together
+  size_t nearest_block = 0;          ///< of the shell to bone, when that was last looked for
+  force::Vec6 tool_twist{};          ///< of the last tick, tool frame: mm/s, rad/s
+  Vec3 tick_from_mm = Vec3::Zero();  ///< where the tool was when the tick began, world frame
+  double tool_speed_mm_s = 0.0;      ///< of its origin, of the last tick
+  bool slips = false;                ///< free of the bone, and not yet where the hand is
+  double thrust_n = 0.0;             ///< simulated, of the last tick
+  double normal_force_n = 0.0;       ///< simulated, of the last tick, that presses tool and bone together
   /// Load of the cutting edge along its normal in the last tick, N per unit of the contact sums' weight; 0
   /// when nothing was cut.
   double edge_load_n = 0.0;
+  force::Spindle spindle;
+  force::SpindleLoad spindle_load;  ///< of the last tick
   HandOutput output;
   force::VibrationPlayer vibration;
   force::GuideState guide;

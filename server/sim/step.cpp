@@ -29,21 +29,40 @@ Pose world_from_handle(const Model& model, const State& state, const device::Dev
 bool move_tool(const Model& model, State& state, const device::DeviceInput& input, ToolLoad& load,
                TickReport& report) {
   const Pose before = state.world_from_tool;
+  state.tick_from_mm = before.translation_mm;
   device::DeviceInput allowed = input;
   allowed.world_from_handle = guided(model, state, input.world_from_handle);
-  const Approach found = approach(model, state, allowed.world_from_handle);
+  const double ahead_mm = (allowed.world_from_handle.translation_mm - before.translation_mm).norm();
+  const double travel_mm = state.slips ? max_travel_mm(model, state, ahead_mm) : ahead_mm;
+  state.slips = ahead_mm > travel_mm;
+  const Approach found =
+      approach(model, state,
+               state.slips ? between(before, allowed.world_from_handle, travel_mm / ahead_mm)
+                           : allowed.world_from_handle);
   if (!found.ok) return false;
   if (found.sums.engaged() > 0) {
     load = press(model, state, found.sums, allowed, report);
+    state.slips = true;
   } else {
     const force::Vec6 way = handle_minus_tool(before, state.world_from_tool);
     for (size_t i = 0; i < 6; ++i) state.tool_twist[i] = way[i] / tick_s;
     state.normal_force_n = state.edge_load_n = 0.0;
+    if (state.slips) load = slip(model, state, allowed.world_from_handle);
   }
   add_guide(model, state, input.world_from_handle, allowed.world_from_handle, load, report);
   move_bone(model, state, load, report.engaged);
   keep_in_guide(model, state);
+  state.tool_speed_mm_s = (state.world_from_tool.translation_mm - before.translation_mm).norm() / tick_s;
   return true;
+}
+
+/// Lets the drive follow trigger and load; it rests with the session.
+void turn_spindle(const Model& model, State& state, const device::DeviceInput& input) {
+  if (input.paused) return;
+  const double full_rad_s = model.settings.feed.spindle_rad_s;
+  const double pressed = input.spindle_on ? input.drive.trigger / 255.0 : 0.0;
+  state.spindle.advance((input.drive.reversed ? -pressed : pressed) * full_rad_s, full_rad_s,
+                        state.spindle_load);
 }
 
 /// The cause of the tick as it is recorded, folded into the rolling hash.
@@ -95,12 +114,17 @@ StepStatus step(const Model& model, State& state, const device::DeviceInput& raw
   if (!state.started) state.world_from_tool = input.world_from_handle;
   state.started = true;
 
+  turn_spindle(model, state, input);
   ToolLoad load;
   if (input.paused)
-    state.tool_twist = {};
+    state.tool_twist = {}, state.tool_speed_mm_s = 0.0;
   else if (!move_tool(model, state, input, load, report))
     return StepStatus::collision_failed;
   state.thrust_n = report.thrust_n;
+  state.spindle_load = load.spindle;
+  report.spindle_speed_rad_s = state.spindle.speed_rad_s();
+  report.spindle_torque_n_mm = input.paused ? 0.0 : state.spindle.motor_torque_n_mm();
+  report.stalled = state.spindle.is_stalled();
   report.world_from_tool = state.world_from_tool;
   report.world_from_bone_rest = state.world_from_bone_rest;
   const Pose grid_from_tool = state.world_from_grid.inverse() * state.world_from_tool;
@@ -111,7 +135,7 @@ StepStatus step(const Model& model, State& state, const device::DeviceInput& raw
   if (load.cuts && !remove_bone(state, report.grid_from_tool, report)) return StepStatus::collision_failed;
 
   report.failed_over = state.failed_over_tick == report.tick;
-  report.vibration_g = state.vibration.next_g(vibration_input(model, report));
+  report.vibration_g = state.vibration.next_g(vibration_input(model, load, report));
   render(model, state.output, state.world_from_tool, load, report);
   state.session_hash = hash_combine(state.session_hash, hash_of_cause(report));
   report.session_hash = state.session_hash;

@@ -209,6 +209,35 @@ ScriptVibration parse_vibration(JsonReader reader) {
   return vibration;
 }
 
+force::CuttingCoefficients parse_cutting(JsonReader reader) {
+  force::CuttingCoefficients c;
+  c.edge_reference_mm = reader.number_or("edge_reference_mm", c.edge_reference_mm, 5.0, 100.0);
+  c.edge_threshold_share = reader.number_or("edge_threshold_share", c.edge_threshold_share, 0.0, 0.95);
+  c.tangential_ratio = reader.number_or("tangential_ratio", c.tangential_ratio, 0.1, 3.0);
+  reader.finish();
+  return c;
+}
+
+/// The key "drive": "ideal" (empty), or an object.
+std::optional<force::SpindleSettings> parse_drive(const nlohmann::json& value, JsonReader& script) {
+  if (value.is_string()) {
+    if (script.text("drive") != "ideal") script.refuse("drive", "must be 'ideal' or an object");
+    return std::nullopt;
+  }
+  JsonReader reader = script.object("drive");
+  force::SpindleSettings drive;
+  drive.stall_torque_n_mm = reader.number_or("stall_torque_n_mm", drive.stall_torque_n_mm, 100.0, 100'000.0);
+  drive.droop_rad_s_per_n_mm =
+      reader.number_or("droop_rad_s_per_n_mm", drive.droop_rad_s_per_n_mm, 1e-5, 0.1);
+  drive.inertia_kg_mm2 = reader.number_or("inertia_kg_mm2", drive.inertia_kg_mm2, 100.0, 100'000.0);
+  drive.start_s = reader.number_or("start_s", drive.start_s, 0.001, 5.0);
+  drive.coast_s = reader.number_or("coast_s", drive.coast_s, 0.001, 5.0);
+  drive.mass_kg = reader.number_or("mass_kg", drive.mass_kg, 0.05, 10.0);
+  drive.catch_ratio = reader.number_or("catch_ratio", drive.catch_ratio, 1.0, 20.0);
+  reader.finish();
+  return drive;
+}
+
 }  // namespace
 
 void ScriptVibration::resolve(const std::filesystem::path& folder) {
@@ -229,6 +258,8 @@ Script parse_script(const nlohmann::json& json, const std::string& where) {
   if (!force::find_feed_kind(script.feed_model))
     reader.refuse("feed_model", "must be " + force::feed_model_names("'"));
   script.specimen_factor = reader.number_or("specimen_factor", script.specimen_factor, 0.1, 10.0);
+  if (reader.has("cutting")) script.cutting = parse_cutting(reader.object("cutting"));
+  if (reader.has("drive")) script.drive = parse_drive(json.at("drive"), reader);
   if (reader.has("mount")) script.mount = parse_mount(json.at("mount"), reader);
   if (script.kind == ScriptKind::hand) script.hand = parse_hand(reader.object("hand"));
   if (script.kind == ScriptKind::robot) script.robot = parse_robot(reader.object("robot"));

@@ -8,6 +8,7 @@
 
 #include "device/haptic_device.hpp"
 #include "device/scapula_mount.hpp"
+#include "force/spindle.hpp"
 
 namespace ream::device {
 
@@ -39,7 +40,7 @@ struct TimedButtons {
   double t_s = 0.0;
   bool spindle = true;
   bool pause = false;
-  DriveControls drive;
+  DriveControls drive{};
 };
 
 /// How the hand turns under torque, about the orientation that it holds.
@@ -99,6 +100,9 @@ struct Script {
   double spindle_rpm = 156.0;
   std::string feed_model = "edge";  ///< one of force::feed_models()
   double specimen_factor = 1.0;     ///< feed of this specimen over the feed law's
+  force::CuttingCoefficients cutting;
+  /// Empty: the spindle turns as it is asked to, whatever holds it.
+  std::optional<force::SpindleSettings> drive = force::SpindleSettings{};
   ScriptVibration vibration;
   std::optional<ScapulaMount> mount;  ///< empty: the bone is held rigidly
   HandParameters hand;

@@ -21,25 +21,32 @@ const double lips_mean_square_kept = 1.0 / std::sqrt(1.0 + 0.5 * lip_pass_depth 
 
 std::array<double, vibration_kinds> target_levels(const VibrationInput& input) noexcept {
   std::array<double, vibration_kinds> desired{};
-  if (!input.spindle_on) return desired;
-  if (!input.cutting) {
-    desired[idle] = 1.0;
-    return desired;
-  }
-  for (size_t k = 0; k < input.share.size(); ++k) desired[k] = std::sqrt(std::max(0.0, input.share[k]));
+  if (!input.turning) return desired;
+  desired[idle] = std::min(1.0, input.spindle_speed_rad_s / reference_spindle_rad_s);
+  for (size_t k = 0; input.cutting && k < input.share.size(); ++k)
+    desired[k] = input.strength[k] * std::sqrt(std::max(0.0, input.share[k]));
   return desired;
 }
 
 }  // namespace
 
+double cut_strength(double thrust_n, double spindle_speed_rad_s, double edge_mm) noexcept {
+  if (!(edge_mm > 0.0)) return 0.0;
+  const double strength = std::max(0.0, thrust_n) / reference_thrust_n * spindle_speed_rad_s /
+                          reference_spindle_rad_s *
+                          std::sqrt(CuttingCoefficients{}.edge_reference_mm / edge_mm);
+  return std::min(strength, max_cut_strength);
+}
+
 VibrationGains VibrationMix::next(const VibrationInput& input) noexcept {
   if (input.paused) return level_ = {};
-  constexpr double max_change = 1.0 / vibration_fade_ticks;
+  const double max_change =
+      std::max({1.0, input.strength[0], input.strength[1], input.strength[2]}) / vibration_fade_ticks;
   const auto desired = target_levels(input);
   for (size_t k = 0; k < vibration_kinds; ++k)
     level_[k] += std::clamp(desired[k] - level_[k], -max_change, max_change);
 
-  if (input.spindle_on)
+  if (input.turning)
     lip_phase_rad_ = std::fmod(lip_phase_rad_ + lip_count * input.spindle_speed_rad_s * tick_s, 2.0 * pi);
   const double lips = lips_mean_square_kept * (1.0 + lip_pass_depth * std::cos(lip_phase_rad_));
   VibrationGains gains;

@@ -9,19 +9,27 @@ namespace ream::force {
 
 /// What one tick says about vibration.
 struct VibrationInput {
-  bool spindle_on = false;
+  bool turning = false;
   double spindle_speed_rad_s = 0.0;
   bool cutting = false;           ///< the lips are in bone
   std::array<double, 3> share{};  ///< of the engaged cutting points: cancellous, cortical, cartilage
-  bool paused = false;            ///< still at once; fades in again afterwards
+  std::array<double, 3> strength{1.0, 1.0, 1.0};  ///< in each, over what was published
+  bool paused = false;                            ///< still at once; fades in again afterwards
 };
+
+/// How much stronger than in the thesis' experiments a cut shakes the reamer: chips break one by one along
+/// the edge, each with its load and unlike its neighbours, so amplitude rises with thrust and speed and falls
+/// with the root of the edge that shares the thrust (mechanics.md 10c; exponents of 1: engineering choice).
+/// Within 0 and max_cut_strength.
+double cut_strength(double thrust_n, double spindle_speed_rad_s, double edge_mm) noexcept;
+inline constexpr double max_cut_strength = 3.0;
 
 /// How loud each kind is at one moment: factors of the tracks, lip-pass modulation included.
 using VibrationGains = std::array<double, vibration_kinds>;
 
-/// Fades between silence, idle spin and contact, and modulates contact as the lips pass. While cutting, each
-/// class has the root of its share, so that the variances of the independent tracks add by share. The
-/// modulation keeps the mean square.
+/// Fades between silence, idle spin and contact, and modulates contact as the lips pass. Idle spin goes on
+/// under the cut, and each class has the root of its share, so that the variances of the independent tracks
+/// add. The modulation keeps the mean square.
 class VibrationMix {
  public:
   /// Once a tick.

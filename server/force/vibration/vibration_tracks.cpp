@@ -101,6 +101,9 @@ void add_blows(std::vector<double>& signal, double strongest, double samples_a_b
 /// Below this a signal is called still; the smallest step of a 24-bit file is 1.2e-7 of its range.
 constexpr double still = 1e-9;
 
+/// Sets a specimen apart from what else comes from the seed.
+constexpr uint64_t specimen_of_seed = 0x200;
+
 constexpr size_t samples_in(double seconds) { return static_cast<size_t>(seconds * vibration_sound_rate_hz); }
 
 /// Gravity takes the high-pass seconds to forget unless it starts with it.
@@ -207,6 +210,16 @@ std::vector<double> synthesized_vibration(VibrationKind kind, uint64_t seed) {
   }
   colour(signal);
   return signal;
+}
+
+double specimen_vibration(VibrationKind kind, uint64_t seed) {
+  const VibrationLevel& level = vibration_levels[static_cast<size_t>(kind)];
+  // Even numbers within +-1 have a deviation of 1 / sqrt(3); three of them together one of 1, and end at 3.
+  Random random(hash_combine(hash_combine(seed, specimen_of_seed), static_cast<uint64_t>(kind)));
+  double normal = 0.0;
+  for (int i = 0; i < 3; ++i) normal += 2.0 * random.even() - 1.0;
+  const double spread = level.g_rms_deviation / level.g_rms;
+  return std::max(0.1, 1.0 + spread * normal);
 }
 
 double rms(std::span<const float> signal) {

@@ -15,6 +15,8 @@ namespace {
 
 /// A first touch or two is always a little soft; longer than this is worth a word.
 constexpr double min_reported_weakened_s = 2.0;
+/// Between plate and cancellous bone every reaming passes such densities for a moment.
+constexpr double min_reported_guessed_s = 2.0;
 
 /// Nobody's tick is late in virtual time, so the recording may have every changed brick at once.
 constexpr int bricks_a_tick_without_hurry = 8192;
@@ -23,6 +25,9 @@ constexpr size_t enough_waiting_chunks = 16;
 
 /// A loop that stands still for longer than this will not come back.
 constexpr int64_t max_standstill_ms = 5000;
+
+/// Its densities are those that it was made with.
+bool is_phantom(const case_::Case& c) { return c.source.starts_with("phantom"); }
 
 [[noreturn]] void throw_fault(const sim::BlackBox& box, sim::LoopEnd end) {
   box.write("ream-black-box.csv");
@@ -46,6 +51,8 @@ SessionFiles::Results run_headless(Simulation& simulation, std::span<const uint8
   const auto take_report = [&](const record::TickReport& report) {
     recent.remember(report);
     files.add(report);
+    for (const record::ops::Event& event : files.newest_events())
+      log::warn("at " + std::to_string(event.tick) + " ms: " + event.words);
   };
   const device::CrashWatch crash_watch(*simulation.device);
   loop.start();
@@ -68,6 +75,14 @@ SessionFiles::Results run_headless(Simulation& simulation, std::span<const uint8
       weakened_s > min_reported_weakened_s)
     log::warn("the hand felt less than it asked for during " + std::to_string(weakened_s) + " s, as " +
               simulation.device->traits().profile + " renders no more; a larger force_scale helps");
+  const double guessed_s = results.metrics.at("extrapolated_time_s").get<double>();
+  if (guessed_s > min_reported_guessed_s)
+    log::warn(
+        "feed is extrapolated during " + std::to_string(guessed_s) +
+        " s, as nobody has measured bone of such density; see extrapolated_time_s in docs/researcher.md");
+  if (simulation.bone_case.calibration.scanner.empty() && !is_phantom(simulation.bone_case))
+    log::warn("the densities of case '" + simulation.bone_case.id +
+              "' are a guess: its scan was turned into density by an example calibration");
   return results;
 }
 

@@ -28,6 +28,12 @@ std::vector<record::ops::Event> SessionEvents::of(const record::TickReport& repo
                             std::to_string(std::lround(report.thrust_n)) +
                             " N; start it first, then approach."});
     spindle_on_ = report.spindle_on;
+    if (report.stalled && !stalled_)
+      events.push_back({report.tick, "spindle_stalled",
+                        "The bone held the reamer still against " +
+                            std::to_string(std::lround(report.thrust_n)) +
+                            " N of thrust; draw back, and press less."});
+    stalled_ = report.stalled;
   }
   return events;
 }

@@ -21,7 +21,8 @@ class SessionEvents {
   /// surgeons are taught to avoid. A reamer that only rests on bone weighs less. Engineering choice.
   static constexpr double loaded_thrust_n = 5.0;
 
-  /// Those of this tick, with their kinds: "device_lost", "device_back", "spindle_loaded", "paused" and
+  /// Those of this tick, with their kinds: "device_lost", "device_back", "spindle_loaded",
+  /// "spindle_stalled", "paused" and
   /// "continued" (by somebody else than the device).
   std::vector<record::ops::Event> of(const record::TickReport& report);
 
@@ -31,6 +32,7 @@ class SessionEvents {
 
  private:
   bool begun_ = false, been_there_ = false, lost_ = false, held_ = false;
+  bool stalled_ = false;
   bool spindle_on_ = true;  ///< in the last tick that was not paused; none before the first
 };
 

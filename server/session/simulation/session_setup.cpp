@@ -33,6 +33,8 @@ sim::Settings settings_for(const RunRequest& request, const device::Script& scri
       force::feed_kind_from_text(request.feed_model.empty() ? script.feed_model : request.feed_model);
   settings.feed.spindle_rad_s = rad_s_from_rpm(script.spindle_rpm);
   settings.feed.specimen_factor = script.specimen_factor;
+  settings.feed.cutting = script.cutting;
+  settings.spindle = script.drive;
   return settings;
 }
 

@@ -62,7 +62,7 @@ double force_us(const sim::Model& model, sim::State& state, const device::Device
   sim::remove_bone(state, report.grid_from_tool, report);
 
   const auto rendering = SteadyClock::now();
-  report.vibration_g = state.vibration.next_g(sim::vibration_input(model, report));
+  report.vibration_g = state.vibration.next_g(sim::vibration_input(model, load, report));
   sim::render(model, state.output, state.world_from_tool, load, report);
   return spent_us + elapsed_us(rendering);
 }

@@ -46,7 +46,7 @@ constexpr PublishedVibration published[] = {{"cortical",
 Signal minute_of(const std::shared_ptr<const force::VibrationTracks>& tracks, size_t bone_class) {
   force::VibrationPlayer player(tracks, seed);
   force::VibrationInput input;
-  input.spindle_on = input.cutting = true;
+  input.turning = input.cutting = true;
   input.spindle_speed_rad_s = force::reference_spindle_rad_s;
   input.share[bone_class] = 1.0;
   for (int i = 0; i < 10 * force::vibration_fade_ticks; ++i) player.next_g(input);

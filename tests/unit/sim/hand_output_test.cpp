@@ -22,9 +22,9 @@ struct Rendering {
                           bool paused = false, bool stale = false) {
     sim::ToolLoad load;
     load.spring.force_n = Vec3(0, 0, thrust_n);
-    load.spindle_torque_n_mm = spindle_n_mm;
     load.unlimited_force_n = thrust_n / run.model.settings.force_scale;
     record::TickReport report;
+    report.spindle_torque_n_mm = spindle_n_mm;
     report.vibration_g = vibration_g;
     report.paused = paused;
     report.stale = stale;
