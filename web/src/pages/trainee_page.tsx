@@ -3,6 +3,7 @@ import { useMemo } from 'preact/hooks';
 import { liveText } from '../text/live_text';
 import { useLiveKeys } from '../panels/picture/live_keys';
 import { Picture } from '../panels/live/picture';
+import { IrrigationButton } from '../panels/live/practice_bar';
 import { SoundButton } from '../panels/picture/sound_button';
 import { addressOfReplay } from '../state/replay_address';
 import { appText } from '../text/app_text';
@@ -65,6 +66,7 @@ function HoldButtons({ practiceStore, scene }: LivePageParts) {
       >
         {appText.spindleButton(hand.spindleOn.value)}
       </button>
+      <IrrigationButton hand={hand} onDone={() => scene.canvas.focus({ preventScroll: true })} />
       <button
         type="button"
         class="hand-button"

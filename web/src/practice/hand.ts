@@ -23,6 +23,7 @@ export class Hand {
   readonly levelN = signal(levelAtFirstN);
   readonly pushN = signal(0);
   readonly spindleOn = signal(false);
+  readonly irrigating = signal(false);
   readonly paused = signal(false);
   /** Somebody is at the tool; without that nothing is pushed and nothing turns. */
   readonly held = signal(true);
@@ -37,6 +38,7 @@ export class Hand {
     this.letGo();
     this.place.value = this.placedAt = { superior: 0, anterior: 0 };
     this.lean.value = { superior: 0, anterior: 0 };
+    this.irrigating.value = false;
     this.paused.value = false;
     this.held.value = true;
   }
@@ -80,6 +82,10 @@ export class Hand {
     this.spindleOn.value = !this.spindleOn.value;
   }
 
+  toggleIrrigation(): void {
+    this.irrigating.value = !this.irrigating.value;
+  }
+
   togglePause(): void {
     this.paused.value = !this.paused.value;
     if (this.paused.value) this.stopPushing();
@@ -108,6 +114,7 @@ export class Hand {
       lean: plan.leant(this.lean.value).toArray(),
       pushN: this.pushN.value,
       spindleOn: this.spindleOn.value && this.held.value,
+      irrigating: this.irrigating.value,
       paused: this.paused.value,
       held: this.held.value,
     };

@@ -17,7 +17,7 @@ const arrows: Record<Arrow, readonly [right: number, up: number]> = {
 
 /**
  * Keys while the picture has the focus: arrows place the tool, with Shift they lean it, with Ctrl they turn the view;
- * space pushes, B or Backspace withdraws, S is the spindle, P rests the session, plus and minus change how hard a push is,
+ * space pushes, B or Backspace withdraws, S is the spindle, I irrigates, P rests the session, plus and minus change how hard a push is,
  * Home puts the tool back onto the plan.
  */
 export class KeyHand {
@@ -76,6 +76,9 @@ export class KeyHand {
       case 's':
       case 'S':
         return () => hand.toggleSpindle();
+      case 'i':
+      case 'I':
+        return () => hand.toggleIrrigation();
       case 'p':
       case 'P':
         return () => hand.togglePause();

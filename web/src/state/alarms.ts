@@ -11,15 +11,18 @@ export const extremeThrustN = 2 * usualThrustN;
 /** Within this of the plan the depth counts as reached, mm; from the other on it is far past. */
 export const reachedWithinMm = 0.05;
 export const farPastMm = 1;
+/** From the first on bone dies within a minute, from the other on at once (Eriksson & Albrektsson). */
+export const warmC = 47;
+export const hotC = 56;
 
 const holdsTicks = 1500;
 /** Older entries of a batch are history, which a jump of a replay sends first. */
 const freshTicks = 250;
 
 export interface Alarm {
-  kind: 'thrust' | 'depth' | 'vault';
+  kind: 'thrust' | 'depth' | 'vault' | 'heat';
   level: 'warn' | 'bad';
-  /** The greatest of the last moments, N or mm. */
+  /** The greatest of the last moments, N, mm or degrees Celsius. */
   value: number;
 }
 
@@ -47,6 +50,12 @@ export class ThrustWatch {
 export function pastPlanMm(depthMm: number, plannedMm: number): number | null {
   const pastMm = depthMm - plannedMm;
   return plannedMm > 0 && pastMm > reachedWithinMm ? pastMm : null;
+}
+
+/** How bad it is for bone to be as warm as this. */
+export function heatLevel(surfaceC: number | null): Alarm['level'] | null {
+  if (surfaceC === null || surfaceC < warmC) return null;
+  return surfaceC < hotC ? 'warn' : 'bad';
 }
 
 /** Always the same, so that nothing follows from there being none still. */
@@ -78,6 +87,9 @@ export class Alarms {
     const { telemetry, hello, metrics } = this.store;
     const pastMm = pastPlanMm(telemetry.value?.depthMm ?? NaN, hello.value?.plannedDepthMm ?? 0);
     if (pastMm !== null) found.push({ kind: 'depth', level: pastMm > farPastMm ? 'bad' : 'warn', value: pastMm });
+    const surfaceC = telemetry.value?.surfaceTemperatureC ?? null;
+    const heat = heatLevel(surfaceC);
+    if (surfaceC !== null && heat !== null && moving) found.push({ kind: 'heat', level: heat, value: surfaceC });
     const breachMm = metrics.value?.vault_breach_mm ?? 0;
     if (breachMm > 0) found.push({ kind: 'vault', level: 'bad', value: breachMm });
     return found.length === 0 ? none : found;

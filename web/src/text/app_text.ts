@@ -184,6 +184,9 @@ export const appText = {
   density: 'Bone density',
   cortical: 'Cortical share',
   spindle: 'Spindle',
+  surfaceTemperature: 'Surface',
+  surfaceWarm: 'too warm',
+  surfaceHot: 'burns',
   on: 'on',
   off: 'off',
   time: 'Session time',
@@ -223,6 +226,7 @@ export const appText = {
     ['Lean', 'Alt and drag; Shift and arrows'],
     ['Turn view', 'middle button, or Ctrl and drag'],
     ['Zoom', 'Ctrl and wheel'],
+    ['Irrigate', 'button; I'],
     ['Back to plan', 'Home'],
     ['Gamepad', 'sticks aim and lean, triggers push and withdraw, A spindle, B pause'],
   ] as const,
@@ -232,6 +236,7 @@ export const appText = {
 
   practice: 'Practice',
   spindleButton: (on: boolean) => (on ? 'Spindle on' : 'Spindle off'),
+  irrigationButton: 'Irrigation',
   pauseButton: (paused: boolean) => (paused ? 'Go on' : 'Pause'),
   pushButton: 'Push',
   withdrawButton: 'Withdraw',
@@ -296,7 +301,7 @@ export const appText = {
   deviceRtt: 'There and back',
 
   practiceLabel:
-    'Bone and reamer; you steer the reamer. Arrow keys aim, with Shift they lean the reamer, with Control they turn the view. Space pushes, B withdraws, S switches the spindle, P pauses, plus and minus change how hard a push is, Home goes back to the plan.',
+    'Bone and reamer; you steer the reamer. Arrow keys aim, with Shift they lean the reamer, with Control they turn the view. Space pushes, B withdraws, S switches the spindle, I irrigates, P pauses, plus and minus change how hard a push is, Home goes back to the plan.',
   sceneLabel:
     'Bone and reamer in three dimensions. Drag or use the arrow keys to turn, plus and minus to zoom, Home to reset.',
 };

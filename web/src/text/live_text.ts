@@ -70,6 +70,10 @@ export const liveText = {
   depthPast: 'Past the planned depth',
   depthPastWhy: 'Stop, and withdraw.',
   vaultBreached: 'Vault breached',
+  surfaceWarm: 'Bone too warm',
+  surfaceWarmWhy: (celsius: string) => `From ${celsius} °C bone dies within a minute. Irrigate, or pause the cut.`,
+  surfaceHot: 'Bone burns',
+  surfaceHotWhy: (celsius: string) => `From ${celsius} °C bone dies at once. Irrigate, and withdraw.`,
   strip: 'Latency, loop and force',
   handDelay: 'Hand to picture',
   handDelayHint:

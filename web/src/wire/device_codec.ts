@@ -69,6 +69,7 @@ export function decodeDeviceMessage(bytes: Uint8Array): DeviceReport {
 function buttons(input: SteeringInput): Button {
   return (
     (input.spindleOn ? Button.spindle : 0) |
+    (input.irrigating ? Button.irrigate : 0) |
     (input.paused || !input.held ? Button.pause : 0) |
     (input.held ? Button.deadman : 0)
   );

@@ -12,6 +12,7 @@ export interface SteeringInput {
   /** Simulated N along the axis, negative to withdraw. */
   pushN: number;
   spindleOn: boolean;
+  irrigating: boolean;
   paused: boolean;
   /** Somebody holds the tool (the deadman button). */
   held: boolean;

@@ -32,6 +32,9 @@ export interface Telemetry {
   worldFromTool: Pose | null;
   worldFromHandle: Pose | null;
   spindleOn: boolean;
+  irrigating: boolean;
+  /** Of the bone under the reamer; null where it is not simulated. */
+  surfaceTemperatureC: number | null;
   state: SessionState;
   depthMm: number;
   removedVolumeMm3: number;
@@ -66,6 +69,8 @@ export function decodeTelemetry(t: WireTelemetry): Telemetry {
     worldFromTool: pose(t.worldFromTool()),
     worldFromHandle: pose(t.worldFromHandle()),
     spindleOn: t.spindleOn(),
+    irrigating: t.irrigating(),
+    surfaceTemperatureC: t.surfaceTemperatureC() || null,
     state: sessionState(t.state()),
     depthMm: t.depthMm(),
     removedVolumeMm3: t.removedVolumeMm3(),

@@ -74,6 +74,14 @@ describe('Hand', () => {
     expect(hand.input(plan)).toMatchObject({ pushN: 0, spindleOn: false, held: true });
   });
 
+  it('irrigates until it is told otherwise, or a session begins', () => {
+    hand.toggleIrrigation();
+    hand.letGo();
+    expect(hand.input(plan)).toMatchObject({ spindleOn: false, irrigating: true });
+    hand.reset();
+    expect(hand.input(plan)).toMatchObject({ irrigating: false });
+  });
+
   it('does not push while it rests', () => {
     hand.push('mouse', 1);
     wait(1);

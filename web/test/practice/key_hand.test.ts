@@ -64,11 +64,15 @@ describe('KeyHand', () => {
     }
   });
 
-  it('switches the spindle, rests, changes the level and goes back to the plan', () => {
+  it('switches spindle and irrigation, rests, changes the level and goes back to the plan', () => {
     tap('s');
     expect(hand.spindleOn.value).toBe(true);
     surface.fire('keydown', { key: 's', repeat: true });
     expect(hand.spindleOn.value).toBe(true);
+    tap('i');
+    expect(hand.irrigating.value).toBe(true);
+    tap('I');
+    expect(hand.irrigating.value).toBe(false);
     tap('p');
     expect(hand.paused.value).toBe(true);
     const before = hand.levelN.value;

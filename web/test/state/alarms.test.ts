@@ -78,6 +78,21 @@ describe('alarms', () => {
     expect(alarms.now.value).toEqual([]);
   });
 
+  it('tell of bone that is too warm while somebody reams, and nothing where heat is not simulated', () => {
+    const store = liveStore();
+    const alarms = new Alarms(store);
+    const at = (surfaceTemperatureC: number | null) => {
+      store.telemetry.value = batch(100, [10], { surfaceTemperatureC });
+      return alarms.now.value;
+    };
+    expect(at(null)).toEqual([]);
+    expect(at(46.9)).toEqual([]);
+    expect(at(47)).toEqual([{ kind: 'heat', level: 'warn', value: 47 }]);
+    expect(at(56)).toEqual([{ kind: 'heat', level: 'bad', value: 56 }]);
+    store.sessionState.value = 'finished';
+    expect(alarms.now.value).toEqual([]);
+  });
+
   it('tell of the vault what the score says, and nothing where it says nothing', () => {
     const store = liveStore();
     const alarms = new Alarms(store);

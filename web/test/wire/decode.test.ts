@@ -84,6 +84,8 @@ describe('StreamDecoder', () => {
       feedRateMmS: 0.375,
       densityGCc: 0.75,
       spindleOn: true,
+      irrigating: true,
+      surfaceTemperatureC: 48.5,
       state: 'fault',
       fault: 'device lost',
       depthMm: 1.5,

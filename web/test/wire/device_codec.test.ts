@@ -41,6 +41,7 @@ describe('device messages', () => {
       lean: [0, 0.25, -1],
       pushN: 52.5,
       spindleOn: true,
+      irrigating: false,
       paused: true,
       held: false,
     } as const;
@@ -48,6 +49,8 @@ describe('device messages', () => {
     expect(decoded(encodeSteering(input, times))).toEqual(decoded(golden('device_steering')));
     const held = encodeSteering({ ...input, paused: false, held: true }, times);
     expect(decoded(held).buttons).toBe(Button.spindle | Button.deadman);
+    const rinsing = encodeSteering({ ...input, paused: false, held: true, irrigating: true }, times);
+    expect(decoded(rinsing).buttons).toBe(Button.spindle | Button.deadman | Button.irrigate);
     // Servers that do not look at the deadman of a Steering rest the session all the same.
     expect(decoded(encodeSteering({ ...input, paused: false }, times)).buttons & Button.pause).toBe(Button.pause);
   });

@@ -13,6 +13,7 @@ const pushing: SteeringInput = {
   lean: [0, 0, 1],
   pushN: 40,
   spindleOn: true,
+  irrigating: false,
   paused: false,
   held: true,
 };

@@ -46,6 +46,8 @@ export function telemetry(changes: Partial<Telemetry> = {}): StreamMessage {
       worldFromTool: null,
       worldFromHandle: null,
       spindleOn: false,
+      irrigating: false,
+      surfaceTemperatureC: null,
       state: 'running',
       depthMm: 0,
       removedVolumeMm3: 0,

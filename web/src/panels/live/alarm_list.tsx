@@ -1,5 +1,5 @@
 import { liveText } from '../../text/live_text';
-import { type Alarm, type Alarms, excessThrustN, extremeThrustN } from '../../state/alarms';
+import { type Alarm, type Alarms, excessThrustN, extremeThrustN, hotC, warmC } from '../../state/alarms';
 import { fixed } from '../../text/format';
 
 /** Over the picture: what should not be. Announced once when it begins; its figure is only to be seen. */
@@ -19,7 +19,7 @@ export function AlarmList({ alarms }: { alarms: Alarms }) {
             <strong>{title(alarm)}</strong>
             <span class="alarm-figure" aria-hidden="true">
               {' '}
-              {fixed(alarm.value, alarm.kind === 'thrust' ? 0 : 1)} {alarm.kind === 'thrust' ? 'N' : 'mm'}
+              {fixed(alarm.value, units[alarm.kind].digits)} {units[alarm.kind].unit}
             </span>
             <span class="alarm-why">{why(alarm)}</span>
           </span>
@@ -29,8 +29,16 @@ export function AlarmList({ alarms }: { alarms: Alarms }) {
   );
 }
 
+const units: Record<Alarm['kind'], { unit: string; digits: number }> = {
+  thrust: { unit: 'N', digits: 0 },
+  depth: { unit: 'mm', digits: 1 },
+  vault: { unit: 'mm', digits: 1 },
+  heat: { unit: '°C', digits: 0 },
+};
+
 function title({ kind, level }: Alarm): string {
   if (kind === 'thrust') return level === 'bad' ? liveText.thrustExtreme : liveText.thrustExcess;
+  if (kind === 'heat') return level === 'bad' ? liveText.surfaceHot : liveText.surfaceWarm;
   return kind === 'depth' ? liveText.depthPast : liveText.vaultBreached;
 }
 
@@ -39,5 +47,7 @@ function why({ kind, level }: Alarm): string {
     return level === 'bad'
       ? liveText.thrustExtremeWhy(fixed(extremeThrustN, 0))
       : liveText.thrustExcessWhy(fixed(excessThrustN, 0));
+  if (kind === 'heat')
+    return level === 'bad' ? liveText.surfaceHotWhy(fixed(hotC, 0)) : liveText.surfaceWarmWhy(fixed(warmC, 0));
   return kind === 'depth' ? liveText.depthPastWhy : liveText.vaultWhy;
 }

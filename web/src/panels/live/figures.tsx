@@ -1,5 +1,6 @@
 import type { ComponentChildren } from 'preact';
 
+import { heatLevel } from '../../state/alarms';
 import type { Store } from '../../state/store';
 import { appText } from '../../text/app_text';
 import { fixed } from '../../text/format';
@@ -47,6 +48,7 @@ export function Figures({ store }: { store: Store }) {
         {engaged ? fixed(t.corticalShare * 100, 0) : appText.none}
       </Figure>
       <Figure name={appText.spindle}>{t === null ? appText.none : t.spindleOn ? appText.on : appText.off}</Figure>
+      <SurfaceTemperature celsius={t?.surfaceTemperatureC ?? null} />
       <Figure name={appText.time} unit="s" id="session-time">
         {fixed(t === null ? null : t.tick / 1000, 1)}
       </Figure>
@@ -63,6 +65,21 @@ export function Figures({ store }: { store: Store }) {
       )}
       {t !== null && t.dropped > 0 && <Figure name={appText.lostSamples}>{fixed(t.dropped, 0)}</Figure>}
     </dl>
+  );
+}
+
+/** Of the bone under the reamer; what is too warm is said in words, too. */
+function SurfaceTemperature({ celsius }: { celsius: number | null }) {
+  const level = heatLevel(celsius);
+  return (
+    <Figure name={appText.surfaceTemperature} unit="°C" id="surface-temperature">
+      {level !== null && (
+        <span class={`figure-alarm alarm-text-${level}`}>
+          {level === 'bad' ? appText.surfaceHot : appText.surfaceWarm}{' '}
+        </span>
+      )}
+      {fixed(celsius, 0)}
+    </Figure>
   );
 }
 

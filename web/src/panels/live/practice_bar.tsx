@@ -1,4 +1,4 @@
-import { levelLeastN, levelMostN } from '../../practice/hand';
+import { type Hand, levelLeastN, levelMostN } from '../../practice/hand';
 import { leanMaxDeg } from '../../practice/plan_frame';
 import type { PracticeStore } from '../../state/practice_store';
 import { appText } from '../../text/app_text';
@@ -24,6 +24,7 @@ export function PracticeBar({ practice, toPicture }: { practice: PracticeStore; 
         >
           {appText.spindleButton(hand.spindleOn.value)}
         </button>
+        <IrrigationButton hand={hand} onDone={(event) => afterClick(event, toPicture)} />
         <HoldButton
           class="hand-button"
           id="push"
@@ -66,6 +67,24 @@ export function PracticeBar({ practice, toPicture }: { practice: PracticeStore; 
       <PushMeter practice={practice} />
       <Lean practice={practice} />
     </section>
+  );
+}
+
+export function IrrigationButton({ hand, onDone }: { hand: Hand; onDone: (event: MouseEvent) => void }) {
+  return (
+    <button
+      type="button"
+      class="hand-button"
+      data-testid="irrigation"
+      aria-pressed={hand.irrigating.value}
+      onClick={(event) => {
+        hand.takeHold();
+        hand.toggleIrrigation();
+        onDone(event);
+      }}
+    >
+      {appText.irrigationButton}
+    </button>
   );
 }
 
