@@ -47,6 +47,10 @@ constexpr std::string_view balasubramanian =
 constexpr std::string_view nigam =
     "Nigam 2022: experts cut force before the far layer; overshoot did not separate groups, time did (4.0 "
     "and 10.0 s)";
+constexpr std::string_view eriksson =
+    "Eriksson and Albrektsson: 47 degrees for a minute and 56 at once; the lower limits are ours";
+constexpr std::string_view heat_model =
+    "of a 1-D model; what of the spindle's power goes into bone, 0.3 to 0.7, is known to 40 %";
 constexpr std::string_view compare = "to be compared with experts on the same simulator";
 
 constexpr Metric catalogue[] = {
@@ -194,6 +198,18 @@ constexpr Metric catalogue[] = {
      "is bone) until thrust falls below 5 N.",
      "Strelzow 2023: experts feel the change from cartilage to bone in 77 % (SD 23); 1 mm is ours", published,
      "limit is engineering judgement", handling, episode, not_negative, at_most(1.0, 1.0)},
+    {"surface_temperature_peak_c", "Peak temperature", "C",
+     "Highest temperature of the bone's surface under the reamer.", eriksson, published, heat_model, handling,
+     episode, any, at_most(47.0, 56.0)},
+    {"time_over_47_s", "Time over 47 degrees", "s", "Time in which it was at 47 degrees or more.", eriksson,
+     published, heat_model, handling, episode, not_negative, at_most(30.0, 60.0)},
+    {"time_over_56_s", "Time over 56 degrees", "s", "Time in which it was at 56 degrees or more.", eriksson,
+     published, heat_model, handling, episode, not_negative, at_most(0.0, 1.0)},
+    {"heated_bone_depth_mm", "Depth of heated bone", "mm",
+     "How deep below the reamed surface bone is left that was at 56 degrees or more; from the surface's "
+     "temperature and the feed, in bone of 0.5 W/(m K) and 2.6 MJ/(m3 K).",
+     "Olson 2011: over 1 mm (1.97 to 5.12) in 4 of 5 dry reamings; 0.5 mm is ours", published, heat_model,
+     handling, episode, not_negative, at_most(0.5, 1.0)},
     {"passes", "Passes", "", "Episodes of contact with over 5 N; gaps of up to 0.5 s do not part them.",
      "engineering judgement", judgement, exact_sum, handling, ticks, not_negative, only_reported,
      Better::less},

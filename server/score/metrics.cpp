@@ -19,6 +19,7 @@ void MetricsAccumulator::add(const record::TickReport& r) {
   cut_axis_.add(plan_from_world_ * bone_from_tool,
                 r.coverage_removed[0] + r.coverage_removed[1] + r.coverage_removed[2]);
   handling_.add(r, in_bone_mm, axial_mm);
+  heating_.add(r);
 }
 
 double MetricsAccumulator::removed_mm3(voxel::BoneClass bone_class) const {
@@ -37,6 +38,7 @@ MetricResults MetricsAccumulator::results() const {
   results.set_exact("removed_volume_cancellous_mm3", removed_mm3(voxel::BoneClass::cancellous));
   results.set_exact("removed_volume_cartilage_mm3", removed_mm3(voxel::BoneClass::cartilage));
   handling_.write(results);
+  heating_.write(results);
   return results;
 }
 

@@ -5,6 +5,7 @@
 #include "record/tick_report.hpp"
 #include "score/cut_axis.hpp"
 #include "score/handling.hpp"
+#include "score/heating.hpp"
 #include "score/metric_results.hpp"
 #include "voxel/bone_model.hpp"
 
@@ -35,6 +36,7 @@ class MetricsAccumulator {
   uint64_t session_hash_ = 0;
   CutAxis cut_axis_;
   Handling handling_;
+  Heating heating_;
 };
 
 /// metrics.json (proto/metrics.schema.json): what the ticks tell, what the bone tells, and for every metric

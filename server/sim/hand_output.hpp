@@ -17,6 +17,7 @@ struct ToolLoad {
   double edge_mm = 0.0;        ///< cutting edge that is engaged, see force::EngagedBone
   /// What the spring between handle and tool would put on the hand without any limit, hand N.
   double unlimited_force_n = 0.0;
+  double area_mm2 = 0.0;  ///< of the cutting surface, that touches bone
 };
 
 /// What of a session's hand output carries over from tick to tick.

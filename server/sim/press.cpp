@@ -296,6 +296,7 @@ ToolLoad press(const Model& model, State& state, const collide::ContactSums& sum
   report.density_g_cc = bone.mean_density_g_cc();
   for (size_t k = 0; k < 3; ++k) report.share[k] = bone.share[k];
   report.engaged_points = sums.engaged();
+  load.area_mm2 = bone.area_mm2;
   return load;
 }
 

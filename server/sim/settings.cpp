@@ -175,6 +175,17 @@ void for_each_field(Visitor& v, Either<device::ScapulaMount> auto& mount) {
 }
 
 template <typename Visitor>
+void for_each_field(Visitor& v, Either<force::HeatSettings> auto& heat) {
+  v.field("conductivity_w_m_k", heat.conductivity_w_m_k);
+  v.field("heat_capacity_mj_m3_k", heat.heat_capacity_mj_m3_k);
+  v.field("share_into_bone", heat.share_into_bone);
+  v.field("saline_film_w_m2_k", heat.saline_film_w_m2_k);
+  v.field("least_area_mm2", heat.least_area_mm2);
+  v.field("body_c", heat.body_c);
+  v.field("saline_c", heat.saline_c);
+}
+
+template <typename Visitor>
 void for_each_field(Visitor& v, Either<Settings> auto& settings) {
   v.field("physics", settings.physics);
   v.field("removal", settings.removal);
@@ -191,6 +202,7 @@ void for_each_field(Visitor& v, Either<Settings> auto& settings) {
   v.field("energy_guarded", settings.energy_guarded);
   v.part("virtual_mass", settings.virtual_mass);
   v.part("mount", settings.mount);
+  v.part("heat", settings.heat);
   v.field("random_seed", settings.random_seed);
 }
 

@@ -9,6 +9,7 @@
 #include "device/scapula_mount.hpp"
 #include "force/coupling.hpp"
 #include "force/feed_model.hpp"
+#include "force/heat.hpp"
 #include "force/spindle.hpp"
 #include "force/vibration/vibration_tracks.hpp"
 #include "force/wrench.hpp"
@@ -46,6 +47,7 @@ struct Settings {
   /// Set for admittance devices; the coupling is then the mass' (force/virtual_mass.hpp).
   std::optional<force::VirtualMass> virtual_mass;
   std::optional<device::ScapulaMount> mount;  ///< empty: the bone is held rigidly
+  force::HeatSettings heat;
   uint64_t random_seed = 1;
 };
 

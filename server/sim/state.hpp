@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "collide/removal/removal_schedule.hpp"
+#include "force/heat.hpp"
 #include "force/spindle.hpp"
 #include "force/vibration/vibration_player.hpp"
 #include "record/tick_report.hpp"
@@ -68,6 +69,7 @@ struct State {
   force::VibrationPlayer vibration;
   force::GuideState guide;
   MountState mount;
+  force::HeatedBone heat;
   Pose world_from_bone_rest;  ///< how far the bone has moved from where the case has it
   Pose world_from_grid;       ///< of the bone where it is now; the grid's own is where it rests
   uint64_t session_hash = 0;

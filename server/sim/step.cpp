@@ -65,6 +65,22 @@ void turn_spindle(const Model& model, State& state, const device::DeviceInput& i
                         state.spindle_load);
 }
 
+constexpr double w_per_n_mm_s = 1e-3;
+
+/// Warms the bone under the reamer by what the spindle has put into it. Nothing else depends on it.
+void heat_bone(const Model& model, State& state, const ToolLoad& load, TickReport& report) {
+  const Pose tool = dequantised(report.grid_from_tool);
+  force::HeatTick tick;
+  tick.power_w = std::abs(load.spindle.torque_n_mm * report.spindle_speed_rad_s) * w_per_n_mm_s;
+  tick.area_mm2 = load.area_mm2;
+  if (report.cutting) tick.advance_mm = report.feed_rate_mm_s * tick_s;
+  tick.irrigated = report.drive.irrigating;
+  tick.apex_mm = tool.translation_mm;
+  tick.axis = tool.rotation.col(2);
+  state.heat.add(model.settings.heat, tick);
+  report.surface_temperature_c = state.heat.surface_c(model.settings.heat);
+}
+
 /// The cause of the tick as it is recorded, folded into the rolling hash.
 uint64_t hash_of_cause(const TickReport& report) {
   uint64_t h = hash_combine(report.tick, static_cast<uint64_t>(report.spindle_on) |
@@ -134,6 +150,7 @@ StepStatus step(const Model& model, State& state, const device::DeviceInput& raw
   if (!load.cuts) state.schedule.pass(report.grid_from_tool);
   if (load.cuts && !remove_bone(state, report.grid_from_tool, report)) return StepStatus::collision_failed;
 
+  heat_bone(model, state, load, report);
   report.failed_over = state.failed_over_tick == report.tick;
   report.vibration_g = state.vibration.next_g(vibration_input(model, load, report));
   render(model, state.output, state.world_from_tool, load, report);

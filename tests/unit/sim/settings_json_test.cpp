@@ -109,7 +109,7 @@ TEST(SettingsJson, AMissingKeyKeepsItsDefaultAndUnknownOnesAreRefusedByName) {
                        [&] { settings_from_json(settings, "test"); });
     object = whole;
   });
-  EXPECT_EQ(objects, 8);
+  EXPECT_EQ(objects, 9);
 }
 
 /// Settings as the first recordings that can be computed again hold them. Later builds must read them, and
