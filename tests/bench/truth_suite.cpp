@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "bench/bench.hpp"
+#include "bench/heat_rows.hpp"
 #include "score/depth_gauge.hpp"
 #include "sim/step.hpp"
 #include "support/reaming_setup.hpp"
@@ -105,6 +106,7 @@ void add_rows(double voxel_mm, const Options& options, std::vector<Row>& rows) {
 std::vector<Row> truth_suite(const Options& options) {
   std::vector<Row> rows;
   for (const double voxel_mm : {0.6, 0.2, 0.1}) add_rows(voxel_mm, options, rows);
+  add_heat_rows(options, rows);
   return rows;
 }
 
