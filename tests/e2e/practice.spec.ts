@@ -95,6 +95,10 @@ test('the keys alone ream, pause and stop', async ({ page }) => {
   await expect(page.getByTestId('bone-canvas')).toBeFocused();
   await page.keyboard.press('s');
   await expect(page.getByTestId('spindle')).toHaveAttribute('aria-pressed', 'true');
+  await page.keyboard.press('i');
+  await expect(page.getByTestId('irrigation')).toHaveAttribute('aria-pressed', 'true');
+  // Saline cools bone that nothing has warmed yet.
+  await expect.poll(() => figure(page, 'surface-temperature')).toBeLessThan(34);
   await page.keyboard.down('ArrowRight');
   await expect
     .poll(async () => parseFloat((await page.getByTestId('off-plan').textContent()) ?? ''))
