@@ -242,6 +242,8 @@ ToolLoad slip(const Model& model, const State& state, const Pose& world_from_han
   ToolLoad load;
   load.spring.force_n =
       coupling.stiffness_n_mm * coupling.force_scale * clamp_length(stretch_mm, coupling.stretch_max_mm);
+  // As in contact: what pulls the hand in is not felt.
+  load.spring.force_n.z() = std::max(0.0, load.spring.force_n.z());
   load.unlimited_force_n = model.coupling.stiffness_n_mm * stretch_mm.norm();
   return load;
 }

@@ -32,6 +32,10 @@ export interface Telemetry {
   worldFromTool: Pose | null;
   worldFromHandle: Pose | null;
   spindleOn: boolean;
+  /** Reversed negative. */
+  spindleSpeedRadS: number;
+  /** The drive cannot turn the reamer against the bone. */
+  stalled: boolean;
   irrigating: boolean;
   /** Of the bone under the reamer; null where it is not simulated. */
   surfaceTemperatureC: number | null;
@@ -69,6 +73,8 @@ export function decodeTelemetry(t: WireTelemetry): Telemetry {
     worldFromTool: pose(t.worldFromTool()),
     worldFromHandle: pose(t.worldFromHandle()),
     spindleOn: t.spindleOn(),
+    spindleSpeedRadS: t.spindleSpeedRadS(),
+    stalled: t.stalled(),
     irrigating: t.irrigating(),
     surfaceTemperatureC: t.surfaceTemperatureC() || null,
     state: sessionState(t.state()),

@@ -84,6 +84,8 @@ describe('StreamDecoder', () => {
       feedRateMmS: 0.375,
       densityGCc: 0.75,
       spindleOn: true,
+      spindleSpeedRadS: -8.5,
+      stalled: true,
       irrigating: true,
       surfaceTemperatureC: 48.5,
       state: 'fault',

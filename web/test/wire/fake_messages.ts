@@ -46,6 +46,8 @@ export function telemetry(changes: Partial<Telemetry> = {}): StreamMessage {
       worldFromTool: null,
       worldFromHandle: null,
       spindleOn: false,
+      spindleSpeedRadS: 16.3,
+      stalled: false,
       irrigating: false,
       surfaceTemperatureC: null,
       state: 'running',

@@ -4,6 +4,7 @@ import { heatLevel } from '../../state/alarms';
 import type { Store } from '../../state/store';
 import { appText } from '../../text/app_text';
 import { fixed } from '../../text/format';
+import type { Telemetry } from '../../wire/telemetry';
 
 /** One number with its name. */
 export function Figure({
@@ -47,7 +48,7 @@ export function Figures({ store }: { store: Store }) {
       <Figure name={appText.cortical} unit="%">
         {engaged ? fixed(t.corticalShare * 100, 0) : appText.none}
       </Figure>
-      <Figure name={appText.spindle}>{t === null ? appText.none : t.spindleOn ? appText.on : appText.off}</Figure>
+      <Spindle telemetry={t} />
       <SurfaceTemperature celsius={t?.surfaceTemperatureC ?? null} />
       <Figure name={appText.time} unit="s" id="session-time">
         {fixed(t === null ? null : t.tick / 1000, 1)}
@@ -65,6 +66,24 @@ export function Figures({ store }: { store: Store }) {
       )}
       {t !== null && t.dropped > 0 && <Figure name={appText.lostSamples}>{fixed(t.dropped, 0)}</Figure>}
     </dl>
+  );
+}
+
+/** Its speed, or why it has none. */
+function Spindle({ telemetry: t }: { telemetry: Telemetry | null }) {
+  // Recordings from before the drive had a speed do not tell it.
+  if (t === null || t.stalled || !t.spindleOn || t.spindleSpeedRadS === 0) {
+    const state = t === null ? appText.none : t.stalled ? appText.stalled : t.spindleOn ? appText.on : appText.off;
+    return (
+      <Figure name={appText.spindle} id="spindle-speed">
+        {state}
+      </Figure>
+    );
+  }
+  return (
+    <Figure name={appText.spindle} unit={appText.rpm} id="spindle-speed">
+      {fixed((t.spindleSpeedRadS * 30) / Math.PI, 0)}
+    </Figure>
   );
 }
 

@@ -50,6 +50,8 @@ function ofHand(store: Store, practice: PracticeStore, theatre: boolean): Notice
   const pushing = hand.pushN.value > 0;
   if (pushing && !hand.spindleOn.value && (practice.feedback.value?.engaged ?? false))
     return ['silent', appText.noticeSpindleOff, appText.noticeSpindleOffText];
+  if (store.reading.value.telemetry?.stalled === true)
+    return ['silent', appText.noticeStalled, appText.noticeStalledText];
   if (theatre) return null;
   const plannedMm = store.hello.value?.plannedDepthMm ?? 0;
   if (pushing && plannedMm > 0 && (store.reading.value.telemetry?.depthMm ?? 0) >= plannedMm)
