@@ -73,7 +73,9 @@ bool looks_byte_swapped(const HuVolume& volume) {
 }
 
 HuVolume read_file(const fs::path& path, Kind kind, const ReadOptions& options, const Progress& progress) {
-  HuVolume volume = kind == Kind::rows ? read_text_rows(path, progress) : read_volume_file(path);
+  HuVolume volume =
+      kind == Kind::rows ? read_text_rows(path, progress) : read_volume_file(path, options.max_bytes);
+  check_bytes(volume, options.max_bytes, path.string());
   if (volume.dims.minCoeff() < 2)
     throw Error(ErrorKind::invalid_input,
                 path.string() + " is a single slice; a volume needs at least two along every axis");
@@ -99,6 +101,16 @@ HuVolume read_file(const fs::path& path, Kind kind, const ReadOptions& options, 
 }
 
 }  // namespace
+
+void check_bytes(const HuVolume& volume, uint64_t max_bytes, const std::string& name) {
+  constexpr uint64_t megabyte = 1'000'000;
+  const uint64_t bytes = sizeof(int16_t) * volume.voxel_count();
+  if (bytes > max_bytes)
+    throw Error(ErrorKind::invalid_input, name + " unpacks to a volume of " +
+                                              std::to_string(bytes / megabyte) +
+                                              " MB; of a file of this size at most " +
+                                              std::to_string(max_bytes / megabyte) + " MB are taken");
+}
 
 void warn_of_thickness(HuVolume& volume, double thickness_mm) {
   const double thickest = std::max(volume.spacing_mm.maxCoeff(), thickness_mm);

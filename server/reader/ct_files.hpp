@@ -10,8 +10,13 @@ using ct::HuVolume, ct::ReadOptions, ct::PatientNames, ct::max_ct_voxels, ct::mi
 HuVolume read_ct_files(const std::filesystem::path& path, const ReadOptions& options = {},
                        const Progress& progress = no_progress);
 
-/// One NRRD, NIfTI or MetaImage file, values clamped to 16 bits but otherwise as they are (label maps).
-HuVolume read_volume_file(const std::filesystem::path& path);
+/// One NRRD, NIfTI or MetaImage file, values clamped to 16 bits but otherwise as they are (label maps). One
+/// that makes a volume of more than `max_bytes` is refused by its header, before memory is taken for it.
+HuVolume read_volume_file(const std::filesystem::path& path, uint64_t max_bytes = ReadOptions{}.max_bytes);
+
+/// Throws Error invalid_input when the HU of a volume, of which only the size need be known, take more than
+/// `max_bytes`. `name` is that of the file in errors.
+void check_bytes(const HuVolume& volume, uint64_t max_bytes, const std::string& name);
 
 /// Whether a file is DICOM, by its content; a damaged one is.
 bool is_dicom(const std::filesystem::path& file);

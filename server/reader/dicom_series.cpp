@@ -173,7 +173,7 @@ HuVolume read_dicom_folder(const fs::path& path, const ReadOptions& options, con
                               (options.series_uid.empty() ? "the largest" : "the chosen one") +
                               " was taken, " + std::to_string(stack.slices.size()) + " slices");
   volume.warnings.insert(volume.warnings.end(), stack.warnings.begin(), stack.warnings.end());
-  load_stack(volume, stack, path.string(), part_of(progress, scanning_share, 1.0));
+  load_stack(volume, stack, path.string(), options.max_bytes, part_of(progress, scanning_share, 1.0));
   const DicomSlice& first = stack.slices.front();
   warn_of_burnt_in(volume, stack.slices);
   warn_of_value_type(volume, first);

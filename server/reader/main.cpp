@@ -1,7 +1,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
 #include "ct/read/ct_file_names.hpp"
 #include "ct/read/volume_answer.hpp"
 #include "isolation/reader_service.hpp"
@@ -18,7 +17,6 @@ using nlohmann::json;
 namespace {
 
 constexpr double unpacking_share = 0.2;
-constexpr uint64_t megabyte = 1'000'000;
 const char *const values_file = "values", *const given_file = "given";
 
 /// What was read, its values in a file.
@@ -40,19 +38,13 @@ json ct_task(const fs::path& input, const json& options, const Progress& progres
     ReadOptions read;
     read.series_uid = options.at("series_uid");
     read.keep_names = options.at("keep_names");
-    const HuVolume volume = read_ct_files(path, read, reading);
-    const uint64_t bytes = 2 * volume.voxel_count(), most = options.at("max_bytes").get<uint64_t>();
-    if (bytes > most)
-      throw Error(ErrorKind::invalid_input, input.string() + " unpacks to a volume of " +
-                                                std::to_string(bytes / megabyte) +
-                                                " MB; of a file of this size at most " +
-                                                std::to_string(most / megabyte) + " MB are taken");
-    return written(volume);
+    read.max_bytes = options.at("max_bytes");
+    return written(read_ct_files(path, read, reading));
   });
 }
 
-json labels_task(const fs::path& input, const json&, const Progress&) {
-  return written(read_volume_file(input));
+json labels_task(const fs::path& input, const json& options, const Progress&) {
+  return written(read_volume_file(input, options.at("max_bytes")));
 }
 
 json gray_task(const fs::path& input, const json& options, const Progress& progress) {

@@ -249,12 +249,13 @@ SliceStack stack_of(const std::vector<DicomSlice>& series, const std::string& pl
   return stack;
 }
 
-void load_stack(HuVolume& volume, const SliceStack& stack, const std::string& place,
+void load_stack(HuVolume& volume, const SliceStack& stack, const std::string& place, uint64_t max_bytes,
                 const Progress& progress) {
   const Plane plane = plane_of(stack, place);
   place_volume(volume, stack, plane);
   if (static_cast<double>(plane.columns) * plane.rows * stack.count > max_ct_voxels)
     throw Error(ErrorKind::invalid_input, place + " makes more than 1e9 voxels; give a smaller series");
+  check_bytes(volume, max_bytes, place);
   const auto& slices = stack.slices;
   DicomPixels pixels;
   const auto read = [&](size_t i) {

@@ -23,9 +23,9 @@ SliceStack stack_of(const std::vector<DicomSlice>& series, const std::string& pl
 
 /// Reads the pixels of a stack onto its even, orthogonal grid: each slice shifted in its plane (bilinear, air
 /// outside) when the stack is sheared, then linear between neighbours where the grid has no slice of its own.
-/// Holds two slices besides the volume. Fills dims, spacing, pose, hu and the warning about padding. Errors:
-/// invalid_input naming the file or `place`; cancelled.
-void load_stack(ct::HuVolume& volume, const SliceStack& stack, const std::string& place,
+/// Holds two slices besides the volume, which may take `max_bytes`. Fills dims, spacing, pose, hu and the
+/// warning about padding. Errors: invalid_input naming the file or `place`; cancelled.
+void load_stack(ct::HuVolume& volume, const SliceStack& stack, const std::string& place, uint64_t max_bytes,
                 const Progress& progress);
 
 }  // namespace ream::reader

@@ -153,15 +153,17 @@ bool VolumeFile::place(HuVolume& volume) const {
   return left_handed;
 }
 
-HuVolume read_volume_file(const fs::path& path) {
+HuVolume read_volume_file(const fs::path& path, uint64_t max_bytes) {
   const std::string name = path.string();
   if (!fs::exists(path)) throw Error(ErrorKind::not_found, "no such file: " + name);
   HuVolume volume;
   try {
     VolumeFile file(path);
     volume.warnings = file.header().warnings();
+    const bool left_handed = file.place(volume);
+    check_bytes(volume, max_bytes, name);
     volume.hu = read_values(file);
-    if (file.place(volume)) reverse_last_axis(volume);
+    if (left_handed) reverse_last_axis(volume);
   } catch (const std::bad_alloc&) {
     throw Error(ErrorKind::invalid_input, name + " does not fit into memory");
   }

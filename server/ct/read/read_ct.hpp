@@ -13,7 +13,8 @@ namespace ream::ct {
 struct ReadOptions {
   std::string series_uid;   ///< of several DICOM series the one with this UID; empty: the one of most slices
   bool keep_names = false;  ///< keep the patient's name and id, and a volume file's name in `source`
-  uint64_t max_bytes = uint64_t{4} << 30;  ///< of the volume: two a voxel
+  uint64_t max_bytes =
+      uint64_t{4} << 30;  ///< of the volume: two a voxel; more is refused before memory is taken
   std::filesystem::path scratch =
       {};  ///< folder for what is unpacked; empty: the system's for temporary files
   std::filesystem::path reader =

@@ -23,27 +23,33 @@ using test::slice_file, test::TemporaryFolder;
 
 constexpr uint64_t allowed_bytes = uint64_t{256} << 20;  // what a small bad file may take while it is read
 
-[[maybe_unused]] uint64_t virtual_bytes() {
+uint64_t virtual_bytes() {
   uint64_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
   return pages * static_cast<uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// What read_ct says of a file in a process of its own that cannot take more than allowed_bytes: the error's
-/// text, or how else it ended.
-std::string refusal(const fs::path& path) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool limits_memory = false;  // a sanitizer's shadow takes terabytes of addresses
+#else
+constexpr bool limits_memory = true;
+#endif
+
+/// What read_ct says of a file in a process of its own that cannot take more than allowed_bytes, where
+/// limits_memory: the error's text, or how else it ended.
+std::string refusal(const fs::path& path, const ReadOptions& options = {}) {
   int ends[2];
   if (::pipe(ends) != 0) return "no pipe";
   const pid_t child = ::fork();
   if (child == 0) {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    const rlim_t most = virtual_bytes() + allowed_bytes;
-    const rlimit limit{most, most};
-    ::setrlimit(RLIMIT_AS, &limit);
-#endif
+    if (limits_memory) {
+      const rlim_t most = virtual_bytes() + allowed_bytes;
+      const rlimit limit{most, most};
+      ::setrlimit(RLIMIT_AS, &limit);
+    }
     std::string said;
     try {
-      read_ct_files(path);
+      read_ct_files(path, options);
       said = "no refusal";
     } catch (const Error& error) {
       said = error.what();
@@ -65,8 +71,9 @@ std::string refusal(const fs::path& path) {
   return said;
 }
 
-void expect_refused(const fs::path& path, const std::string& named, const std::string& why) {
-  const std::string said = refusal(path);
+void expect_refused(const fs::path& path, const std::string& named, const std::string& why,
+                    const ReadOptions& options = {}) {
+  const std::string said = refusal(path, options);
   EXPECT_NE(said.find(named), std::string::npos) << said;
   EXPECT_NE(said.find(why), std::string::npos) << said;
   EXPECT_EQ(said.find('\n'), std::string::npos) << said;
@@ -214,17 +221,47 @@ TEST_F(MalformedVolume, OtherFilesByTheseNames) {
   expect_refused(file("unknown"), "unknown", "not a volume");
 }
 
-TEST_F(MalformedVolume, APackedBombIsCountedNotUnpacked) {
-  // A valid header that claims 1024 x 1024 x 300 voxels, packed a thousandfold: 0.6 GB of zeros.
-  std::string header = whole("small.nii").substr(0, 352);
+/// A valid header that claims 1024 x 1024 x 300 voxels, packed a thousandfold: 0.6 GB of zeros.
+void write_bomb(const fs::path& file, std::string header) {
   const int16_t dims[3] = {1024, 1024, 300};
   std::memcpy(header.data() + 42, dims, sizeof dims);
-  const gzFile bomb = gzopen(file("bomb.nii.gz").c_str(), "wb1");
+  const gzFile bomb = gzopen(file.c_str(), "wb1");
   gzwrite(bomb, header.data(), 352);
   const std::string zeros(1 << 20, '\0');
   for (int i = 0; i < 600; ++i) gzwrite(bomb, zeros.data(), static_cast<unsigned>(zeros.size()));
   gzclose(bomb);
+}
+
+/// Where memory is limited, what it unpacks to does not fit: another refusal would be given.
+TEST_F(MalformedVolume, APackedBombIsCountedNotUnpacked) {
+  write_bomb(file("bomb.nii.gz"), whole("small.nii").substr(0, 352));
+  ReadOptions options;
+  options.max_bytes = allowed_bytes;
+  expect_refused(file("bomb.nii.gz"), "bomb.nii.gz", "unpacks to a volume of 629 MB", options);
+}
+
+TEST_F(MalformedVolume, WhatDoesNotFitIntoMemoryIsRefused) {
+  if (!limits_memory) GTEST_SKIP() << "a sanitizer's memory cannot be limited";
+  write_bomb(file("bomb.nii.gz"), whole("small.nii").substr(0, 352));
   expect_refused(file("bomb.nii.gz"), "bomb.nii.gz", "does not fit into memory");
+}
+
+TEST_F(MalformedVolume, NoKindOfFileMakesMoreThanIsTaken) {
+  ReadOptions options;
+  options.max_bytes = small().voxel_count() * sizeof(int16_t);
+  for (const char* name : {"small.nrrd", "small.nii", "small.mha"}) whole(name);
+  fs::create_directory(file("dicom"));
+  write_dicom_folder(small(), file("dicom"), 1);
+  std::ofstream rows(file("rows.txt"));
+  for (size_t i = 0; i < small().voxel_count(); ++i)
+    rows << i % 20 << ' ' << i / 20 % 16 << ' ' << i / 320 << " 5\n";
+  rows.close();
+  for (const char* name : {"small.nrrd", "small.nii", "small.mha", "dicom", "rows.txt"}) {
+    EXPECT_EQ(read_ct_files(file(name), options).dims, small().dims) << name;
+    ReadOptions less = options;
+    --less.max_bytes;
+    expect_refused(file(name), name, "unpacks to a volume", less);
+  }
 }
 
 class MalformedDicom : public testing::Test {
