@@ -42,13 +42,13 @@ Vec3 vibration_n(const Model& model, const Pose& world_from_tool, double vibrati
 
 }  // namespace
 
-double HandOutput::fade(bool stale) noexcept {
+double HandOutput::fade(bool stale, bool rests) noexcept {
   if (faded_ticks == 0) {
     fades_n = contact.force_n.norm();
     fades_n_mm = contact.torque_n_mm.norm();
   }
   if (stale || (faded_ticks > 0 && faded_ticks < fade_ticks))
-    faded_ticks = std::min(faded_ticks + 1, fade_ticks);
+    faded_ticks = rests ? fade_ticks : std::min(faded_ticks + 1, fade_ticks);
   else if (faded_ticks > 0) {
     faded_ticks = 0;
     start_up.restart();
@@ -87,7 +87,7 @@ void render(const Model& model, HandOutput& output, const Pose& world_from_tool,
   force::Wrench contact;
   Vec3 spindle_n_mm = Vec3::Zero(), shaking_n = Vec3::Zero();
   const bool renders = !report.paused && !report.failed_over;
-  const double faded = output.fade(report.stale);
+  const double faded = output.fade(report.stale, !renders);
   const force::Wrench simulated = contact_on_hand(model, world_from_tool, load);
   if (renders) {
     contact = force::limited(simulated, limits);

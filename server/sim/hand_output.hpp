@@ -25,8 +25,9 @@ struct HandOutput {
   explicit HandOutput(double start_up_ramp_s) : start_up(start_up_ramp_s) {}
 
   /// Of this tick: 1, falling to 0 within fade_ticks of a stale pose, and so on to the end even if new poses
-  /// come before. Then the start-up ramp begins anew, as the hand may be anywhere.
-  double fade(bool stale) noexcept;
+  /// come before. Then the start-up ramp begins anew, as the hand may be anywhere. A tick that `rests`,
+  /// without any force, ends the fading at once: the force that it took away does not come back to fade.
+  double fade(bool stale, bool rests) noexcept;
   static constexpr int fade_ticks = 20;
 
   force::StartUpRamp start_up;

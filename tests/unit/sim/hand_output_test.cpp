@@ -66,6 +66,23 @@ TEST(HandOutput, AStalePosesForceFallsThoughTheLoadRises) {
         << "stale for " << i;
 }
 
+/// The loop's own thread stood still for so long that hand and device both let go, and the pose is old too.
+TEST(HandOutput, AStalePosesForceDoesNotComeBackAfterATickOfRest) {
+  Rendering r;
+  sim::HandOutput output(0.0);
+  for (int rest = 1; rest <= 20; ++rest) {
+    for (int i = 0; i < 100; ++i) r.tick(output, 20.0, 100.0, 0.0);
+    ASSERT_NEAR(output.contact.force_n.norm(), 2.0, 1e-9);
+    for (int i = 1; i < rest; ++i) r.tick(output, 20.0, 100.0, 0.0, false, true);
+    r.tick(output, 20.0, 100.0, 1.0, true, true);
+    for (int i = 0; i < 30; ++i) {
+      const auto report = r.tick(output, 20.0, 100.0, 1.0, false, true);
+      EXPECT_EQ(report.hand_force_n.norm(), 0.0) << i << " after rest in tick " << rest;
+      EXPECT_EQ(report.hand_torque_n_mm.norm(), 0.0) << i << " after rest in tick " << rest;
+    }
+  }
+}
+
 TEST(HandOutput, VibrationHasALimitOfItsOwnAndStaysWithinTheDevices) {
   Rendering r;
   const auto& settings = r.run.model.settings;

@@ -181,16 +181,16 @@ TEST(StalePoses, ALostDeviceRestsTheSessionWithoutForceAndWithoutTakingBone) {
 
 TEST(StalePoses, FadingOnceBegunGoesOnToTheEnd) {
   sim::HandOutput output(0.0);
-  EXPECT_EQ(output.fade(false), 1.0);
-  double before = output.fade(true);
+  EXPECT_EQ(output.fade(false, false), 1.0);
+  double before = output.fade(true, false);
   EXPECT_DOUBLE_EQ(before, 0.95);
   for (int i = 0; i < 18; ++i) {
-    const double now = output.fade(false);
+    const double now = output.fade(false, false);
     EXPECT_NEAR(before - now, 0.05, 1e-12);
     before = now;
   }
-  EXPECT_EQ(output.fade(false), 0.0);
-  EXPECT_EQ(output.fade(false), 1.0) << "and the start-up ramp goes on from here";
+  EXPECT_EQ(output.fade(false, false), 0.0);
+  EXPECT_EQ(output.fade(false, false), 1.0) << "and the start-up ramp goes on from here";
 }
 
 }  // namespace
