@@ -91,6 +91,7 @@ void HeatedBone::add(const HeatSettings& bone, const HeatTick& tick) noexcept {
     place_mm_ = tick.apex_mm;
     largest_area_mm2_ = bone.least_area_mm2;
   }
+  if (!placed_) return;
   if (works) {
     largest_area_mm2_ = std::max(largest_area_mm2_, tick.area_mm2);
     energy_j_ += tick.power_w * tick_s;

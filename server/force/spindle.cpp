@@ -32,7 +32,9 @@ double Spindle::held_back_n_mm(const SpindleLoad& load) const noexcept {
 void Spindle::advance(double asked_rad_s, double full_rad_s, const SpindleLoad& load) noexcept {
   if (!settings_) {
     speed_rad_s_ = asked_rad_s;
-    motor_n_mm_ = asked_rad_s != 0.0 ? load.torque_n_mm : 0.0;
+    motor_n_mm_ = bone_n_mm_ = asked_rad_s == 0.0  ? 0.0
+                               : asked_rad_s > 0.0 ? load.torque_n_mm
+                                                   : -load.torque_n_mm;
     return;
   }
   follow(asked_rad_s, full_rad_s);
@@ -44,7 +46,9 @@ void Spindle::advance(double asked_rad_s, double full_rad_s, const SpindleLoad& 
       towards(speed_rad_s_ + gain * stiffness * set_rad_s_, 0.0, lost_rad_s) / (1.0 + gain * stiffness);
   motor_n_mm_ = std::clamp(stiffness * (set_rad_s_ - aimed_rad_s), -settings_->stall_torque_n_mm,
                            settings_->stall_torque_n_mm);
-  speed_rad_s_ = towards(speed_rad_s_ + gain * motor_n_mm_, 0.0, lost_rad_s);
+  const double driven_rad_s = speed_rad_s_ + gain * motor_n_mm_;
+  speed_rad_s_ = towards(driven_rad_s, 0.0, lost_rad_s);
+  bone_n_mm_ = (driven_rad_s - speed_rad_s_) / gain;
 
   const bool stands = std::abs(speed_rad_s_) < standing_share * full_rad_s;
   if (stands && load.lips_bite)

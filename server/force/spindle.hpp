@@ -6,7 +6,7 @@
 namespace ream::force {
 
 /// A reaming drive, seen from its chuck. Nobody published one for glenoid reamers, so all of these are
-/// engineering choices: a cordless surgical drive of 6 N m in its reaming gear (mechanics.md 10d).
+/// engineering choices: a cordless surgical drive of 6 N m in its reaming gear.
 struct SpindleSettings {
   double stall_torque_n_mm = 6000.0;  ///< the most that the motor gives, at any speed
   double droop_rad_s_per_n_mm = 0.1 * reference_spindle_rad_s / 1000.0;  ///< 10 % of 156 rpm at 1 N m
@@ -39,6 +39,8 @@ class Spindle {
   double speed_rad_s() const noexcept { return speed_rad_s_; }
   /// What the motor gives, and the hand holds against: positive when it drives forwards.
   double motor_torque_n_mm() const noexcept { return motor_n_mm_; }
+  /// What the bone took of it: the motor's, less what sped the reamer up.
+  double bone_torque_n_mm() const noexcept { return bone_n_mm_; }
   /// It has been asked to turn for stall_ticks and bone holds it.
   bool is_stalled() const noexcept { return held_ticks_ >= stall_ticks; }
 
@@ -53,7 +55,7 @@ class Spindle {
 
   std::optional<SpindleSettings> settings_;
   double set_rad_s_ = 0.0;  ///< what the motor's controller aims at: follows what is asked
-  double speed_rad_s_ = 0.0, motor_n_mm_ = 0.0;
+  double speed_rad_s_ = 0.0, motor_n_mm_ = 0.0, bone_n_mm_ = 0.0;
   double bite_ = 0.0;  ///< 0 to 1: how far the lips have sunk in
   int held_ticks_ = 0;
 };

@@ -15,6 +15,12 @@ double share_of(const record::TickReport& r, voxel::BoneClass bone_class) {
   return r.share[static_cast<size_t>(bone_class)];
 }
 
+/// Cartilage has one feed, whatever its density.
+bool is_extrapolated(const record::TickReport& r) {
+  return r.cutting && share_of(r, voxel::BoneClass::cartilage) < reached_share &&
+         !force::is_fitted_density(r.density_g_cc);
+}
+
 }  // namespace
 
 void AdvanceUntilRelease::begin(double axial_mm) {
@@ -91,9 +97,9 @@ void Handling::add(const record::TickReport& r, const Vec3& in_bone_mm, double a
   ++ticks_;
   contact_ticks_ += r.engaged ? 1 : 0;
   weakened_ticks_ += r.weakened ? 1 : 0;
-  extrapolated_ticks_ += r.cutting && !force::is_fitted_density(r.density_g_cc) ? 1 : 0;
+  extrapolated_ticks_ += is_extrapolated(r) ? 1 : 0;
   stalls_ += r.stalled && !stalled_ ? 1 : 0;
-  stalled_ = r.stalled;
+  if (!r.paused) stalled_ = r.stalled;
   thrust_.add(r, axial_mm);
   breakthrough_.add(r, axial_mm);
   plate_stop_.add(r, axial_mm);

@@ -12,7 +12,7 @@ constexpr force::HeatSettings bone;
 }  // namespace
 
 void Heating::add(const record::TickReport& r) noexcept {
-  if (r.surface_temperature_c == 0.0) return;
+  if (r.surface_temperature_c == 0.0 || r.paused) return;
   peak_c_ = std::max(peak_c_, r.surface_temperature_c);
   over_47_ticks_ += r.surface_temperature_c >= force::dead_in_a_minute_c ? 1 : 0;
   over_56_ticks_ += r.surface_temperature_c >= force::dead_at_once_c ? 1 : 0;

@@ -173,8 +173,10 @@ struct Contact {
     return size > 0.0 ? std::max(0.0, pressed.normal_force_n()) / size : 0.0;
   }
 
-  force::SpindleLoad holding_back(const State& after, double thrust_n, bool cuts, bool reversed) const {
+  force::SpindleLoad holding_back(const State& after, double thrust_n, bool cuts, bool asked_reversed) const {
     force::SpindleLoad load;
+    const double speed_rad_s = state.spindle.speed_rad_s();
+    const bool reversed = speed_rad_s < 0.0 || (speed_rad_s == 0.0 && asked_reversed);
     load.lips_bite = bone.any() && !reversed && after.normal_force_n >= force::start_threshold_n;
     const double ratio = reversed ? force::friction_coefficient : cutting.tangential_ratio;
     load.torque_n_mm = ratio > 0.0 ? ratio * after.edge_load_n * collide::edge_radius_mm *
@@ -228,24 +230,25 @@ Pose moved(const Pose& world_from_tool, const force::Vec6& motion, double fracti
 
 double max_travel_mm(const Model& model, const State& state, double stretch_mm) noexcept {
   if (!model.settings.spindle || model.virtual_mass) return std::numeric_limits<double>::infinity();
-  const force::CouplingParameters coupling = yielding(model, state);
+  // Without the start-up's gain, which would freeze a tool that a pause left in the bone.
+  const double most_n = model.settings.limits.force_max_n;
   const double force_n =
-      coupling.stiffness_n_mm * coupling.force_scale * std::min(stretch_mm, coupling.stretch_max_mm);
+      model.coupling.force_scale * std::min(model.coupling.stiffness_n_mm * stretch_mm, most_n);
   const double gained_mm_s = mm_s2_per_n_kg * force_n / model.settings.spindle->mass_kg * tick_s;
   return (state.tool_speed_mm_s + gained_mm_s) * tick_s;
 }
 
-ToolLoad slip(const Model& model, const State& state, const Pose& world_from_handle) noexcept {
+void add_slip(const Model& model, const State& state, const Pose& world_from_handle,
+              ToolLoad& load) noexcept {
   const force::CouplingParameters coupling = yielding(model, state);
   const force::Vec6 delta = handle_minus_tool(state.world_from_tool, world_from_handle);
   const Vec3 stretch_mm(delta[0], delta[1], delta[2]);
-  ToolLoad load;
-  load.spring.force_n =
+  Vec3 force_n =
       coupling.stiffness_n_mm * coupling.force_scale * clamp_length(stretch_mm, coupling.stretch_max_mm);
   // As in contact: what pulls the hand in is not felt.
-  load.spring.force_n.z() = std::max(0.0, load.spring.force_n.z());
-  load.unlimited_force_n = model.coupling.stiffness_n_mm * stretch_mm.norm();
-  return load;
+  force_n.z() = std::max(0.0, force_n.z());
+  load.spring.force_n += force_n;
+  load.unlimited_force_n += model.coupling.stiffness_n_mm * stretch_mm.norm();
 }
 
 ToolLoad press(const Model& model, State& state, const collide::ContactSums& sums,
@@ -272,7 +275,7 @@ ToolLoad press(const Model& model, State& state, const collide::ContactSums& sum
   const double travelled_mm = (before.translation_mm - state.tick_from_mm).norm();
   const double most_mm = std::max(0.0, max_travel_mm(model, state, stretch_mm + travelled_mm) - travelled_mm);
   if (travel_mm > most_mm)
-    for (double& part : motion) part *= most_mm / travel_mm;
+    for (size_t i = 0; i < 3; ++i) motion[i] *= most_mm / travel_mm;
   state.world_from_tool = moved_within_a_voxel(model, before, motion);
   state.free_path_mm = -1.0;
   for (size_t i = 0; i < 6; ++i) state.tool_twist[i] = motion[i] / tick_s;

@@ -17,8 +17,8 @@ Pose moved(const Pose& world_from_tool, const force::Vec6& motion, double fracti
 /// bone and hand. Infinite without a drive, which has the mass, and with a virtual mass.
 double max_travel_mm(const Model& model, const State& state, double stretch_mm) noexcept;
 
-/// One tick of a tool that slips towards the hand after bone let it go: the spring still pulls.
-ToolLoad slip(const Model& model, const State& state, const Pose& world_from_handle) noexcept;
+/// Adds what the spring does to a tool that slips towards the hand after bone let it go.
+void add_slip(const Model& model, const State& state, const Pose& world_from_handle, ToolLoad& load) noexcept;
 
 /// One tick of a tool that touches bone: spring, feed law, friction and the motion that follows. Moves
 /// state.world_from_tool and fills the report's part about contact.

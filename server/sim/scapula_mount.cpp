@@ -53,7 +53,8 @@ void move_bone(const Model& model, State& state, const ToolLoad& load, bool carr
   const Mat3& world_from_tool = state.world_from_tool.rotation;
   const Vec3 force_n = world_from_tool * load.spring.force_n;
   const Vec3 torque_n_mm =
-      world_from_tool * (load.spring.torque_n_mm + state.spindle.motor_torque_n_mm() * Vec3::UnitZ());
+      world_from_tool *
+      (load.spring.torque_n_mm + (carried ? state.spindle.bone_torque_n_mm() : 0.0) * Vec3::UnitZ());
   const force::Wrench about_entry{force_n, torque_n_mm + arm_mm.cross(force_n)};
   const MountState target = settled_mount(*model.mount, state.mount, about_entry, tick_s);
   const Pose before = state.world_from_bone_rest;

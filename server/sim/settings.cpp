@@ -206,6 +206,28 @@ void for_each_field(Visitor& v, Either<Settings> auto& settings) {
   v.field("random_seed", settings.random_seed);
 }
 
+/// Recordings come from outside, too: what would make a tick divide by nothing, or clamp the wrong way
+/// around.
+void check(const Settings& s, const std::string& place) {
+  const auto above_zero = [&](const char* key, double value) {
+    if (!(value > 0.0)) throw Error(ErrorKind::invalid_input, place + ": " + key + " must be above 0");
+  };
+  above_zero("feed.spindle_rad_s", s.feed.spindle_rad_s);
+  if (!(s.vibration.vibration_max_n >= 0.0))
+    throw Error(ErrorKind::invalid_input, place + ": vibration.vibration_max_n must not be negative");
+  above_zero("heat.conductivity_w_m_k", s.heat.conductivity_w_m_k);
+  above_zero("heat.heat_capacity_mj_m3_k", s.heat.heat_capacity_mj_m3_k);
+  above_zero("heat.least_area_mm2", s.heat.least_area_mm2);
+  if (!s.spindle) return;
+  above_zero("spindle.stall_torque_n_mm", s.spindle->stall_torque_n_mm);
+  above_zero("spindle.droop_rad_s_per_n_mm", s.spindle->droop_rad_s_per_n_mm);
+  above_zero("spindle.inertia_kg_mm2", s.spindle->inertia_kg_mm2);
+  above_zero("spindle.start_s", s.spindle->start_s);
+  above_zero("spindle.coast_s", s.spindle->coast_s);
+  above_zero("spindle.catch_ratio", s.spindle->catch_ratio);
+  above_zero("spindle.mass_kg", s.spindle->mass_kg);
+}
+
 /// A coupling turns as stiffly as its linear spring does on a lever of 32 mm, about the reamer's size, mm^2.
 /// Engineering choice.
 constexpr double angular_per_linear_mm2 = 1000.0;
@@ -232,6 +254,7 @@ Settings settings_from_json(const json& value, const std::string& place) {
   Reader reader(value, place);
   for_each_field(reader, settings);
   reader.finish();
+  check(settings, place);
   return settings;
 }
 

@@ -60,8 +60,8 @@ struct State {
   bool slips = false;                ///< free of the bone, and not yet where the hand is
   double thrust_n = 0.0;             ///< simulated, of the last tick
   double normal_force_n = 0.0;       ///< simulated, of the last tick, that presses tool and bone together
-  /// Load of the cutting edge along its normal in the last tick, N per unit of the contact sums' weight; 0
-  /// when nothing was cut.
+  /// Load of the cutting edge along its normal in the last tick, N per unit of the contact sums' weight, of
+  /// lips that cut or rub.
   double edge_load_n = 0.0;
   force::Spindle spindle;
   force::SpindleLoad spindle_load;  ///< of the last tick

@@ -47,22 +47,34 @@ bool move_tool(const Model& model, State& state, const device::DeviceInput& inpu
     const force::Vec6 way = handle_minus_tool(before, state.world_from_tool);
     for (size_t i = 0; i < 6; ++i) state.tool_twist[i] = way[i] / tick_s;
     state.normal_force_n = state.edge_load_n = 0.0;
-    if (state.slips) load = slip(model, state, allowed.world_from_handle);
   }
   add_guide(model, state, input.world_from_handle, allowed.world_from_handle, load, report);
   move_bone(model, state, load, report.engaged);
+  // It accelerates the drive, and is nothing to the bone.
+  if (state.slips && !report.engaged) add_slip(model, state, allowed.world_from_handle, load);
   keep_in_guide(model, state);
   state.tool_speed_mm_s = (state.world_from_tool.translation_mm - before.translation_mm).norm() / tick_s;
   return true;
 }
 
-/// Lets the drive follow trigger and load; it rests with the session.
+/// Below this share the trigger is at rest: hands and sensors are not quiet.
+constexpr double min_trigger_share = 0.05;
+
+/// Lets the drive follow trigger and load. In a pause it keeps its speed, or runs down once it is let go.
 void turn_spindle(const Model& model, State& state, const device::DeviceInput& input) {
-  if (input.paused) return;
+  if (input.paused && input.spindle_on) return;
   const double full_rad_s = model.settings.feed.spindle_rad_s;
-  const double pressed = input.spindle_on ? input.drive.trigger / 255.0 : 0.0;
+  double pressed = input.spindle_on ? input.drive.trigger / 255.0 : 0.0;
+  if (pressed < min_trigger_share) pressed = 0.0;
   state.spindle.advance((input.drive.reversed ? -pressed : pressed) * full_rad_s, full_rad_s,
                         state.spindle_load);
+}
+
+void tell_of_spindle(State& state, const ToolLoad& load, TickReport& report) {
+  state.spindle_load = load.spindle;
+  report.spindle_speed_rad_s = state.spindle.speed_rad_s();
+  report.spindle_torque_n_mm = state.spindle.motor_torque_n_mm();
+  report.stalled = state.spindle.is_stalled();
 }
 
 constexpr double w_per_n_mm_s = 1e-3;
@@ -71,13 +83,15 @@ constexpr double w_per_n_mm_s = 1e-3;
 void heat_bone(const Model& model, State& state, const ToolLoad& load, TickReport& report) {
   const Pose tool = dequantised(report.grid_from_tool);
   force::HeatTick tick;
-  tick.power_w = std::abs(load.spindle.torque_n_mm * report.spindle_speed_rad_s) * w_per_n_mm_s;
+  tick.power_w = report.engaged
+                     ? std::abs(state.spindle.bone_torque_n_mm() * report.spindle_speed_rad_s) * w_per_n_mm_s
+                     : 0.0;
   tick.area_mm2 = load.area_mm2;
   if (report.cutting) tick.advance_mm = report.feed_rate_mm_s * tick_s;
   tick.irrigated = report.drive.irrigating;
   tick.apex_mm = tool.translation_mm;
   tick.axis = tool.rotation.col(2);
-  state.heat.add(model.settings.heat, tick);
+  if (!report.paused) state.heat.add(model.settings.heat, tick);
   report.surface_temperature_c = state.heat.surface_c(model.settings.heat);
 }
 
@@ -95,7 +109,8 @@ uint64_t hash_of_cause(const TickReport& report) {
 bool is_finite(const TickReport& r) {
   return r.hand_force_n.allFinite() && r.hand_torque_n_mm.allFinite() &&
          r.world_from_tool.translation_mm.allFinite() && r.world_from_tool.rotation.allFinite() &&
-         std::isfinite(r.thrust_n);
+         std::isfinite(r.thrust_n) && std::isfinite(r.spindle_speed_rad_s) &&
+         std::isfinite(r.surface_temperature_c);
 }
 
 /// Recorded poses reach to 2.1 m; scanners' tables put bones as far as this from the origin, mm.
@@ -137,10 +152,7 @@ StepStatus step(const Model& model, State& state, const device::DeviceInput& raw
   else if (!move_tool(model, state, input, load, report))
     return StepStatus::collision_failed;
   state.thrust_n = report.thrust_n;
-  state.spindle_load = load.spindle;
-  report.spindle_speed_rad_s = state.spindle.speed_rad_s();
-  report.spindle_torque_n_mm = input.paused ? 0.0 : state.spindle.motor_torque_n_mm();
-  report.stalled = state.spindle.is_stalled();
+  if (!input.paused) tell_of_spindle(state, load, report);
   report.world_from_tool = state.world_from_tool;
   report.world_from_bone_rest = state.world_from_bone_rest;
   const Pose grid_from_tool = state.world_from_grid.inverse() * state.world_from_tool;

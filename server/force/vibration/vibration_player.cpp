@@ -40,8 +40,9 @@ double cut_strength(double thrust_n, double spindle_speed_rad_s, double edge_mm)
 
 VibrationGains VibrationMix::next(const VibrationInput& input) noexcept {
   if (input.paused) return level_ = {};
-  const double max_change =
-      std::max({1.0, input.strength[0], input.strength[1], input.strength[2]}) / vibration_fade_ticks;
+  const double max_change = std::max({1.0, input.strength[0], input.strength[1], input.strength[2], level_[0],
+                                      level_[1], level_[2]}) /
+                            vibration_fade_ticks;
   const auto desired = target_levels(input);
   for (size_t k = 0; k < vibration_kinds; ++k)
     level_[k] += std::clamp(desired[k] - level_[k], -max_change, max_change);

@@ -21,9 +21,8 @@ class SessionEvents {
   /// surgeons are taught to avoid. A reamer that only rests on bone weighs less. Engineering choice.
   static constexpr double loaded_thrust_n = 5.0;
 
-  /// Those of this tick, with their kinds: "device_lost", "device_back", "spindle_loaded",
-  /// "spindle_stalled", "paused" and
-  /// "continued" (by somebody else than the device).
+  /// Those of this tick, with their kinds: "device_lost", "device_back", "spindle_loaded", "spindle_stalled",
+  /// "paused" and "continued" (by somebody else than the device).
   std::vector<record::ops::Event> of(const record::TickReport& report);
 
   bool device_is_lost() const { return lost_; }

@@ -24,6 +24,8 @@ TEST(Spindle, WithoutADriveItHasItsSpeedAtOnce) {
   EXPECT_EQ(spindle.speed_rad_s(), full_rad_s);
   EXPECT_EQ(spindle.motor_torque_n_mm(), 50.0 * one_n_m);
   EXPECT_FALSE(spindle.is_stalled());
+  spindle.advance(-full_rad_s, full_rad_s, {50.0 * one_n_m, true});
+  EXPECT_EQ(spindle.motor_torque_n_mm(), -50.0 * one_n_m);
   spindle.advance(0.0, full_rad_s, {50.0 * one_n_m, true});
   EXPECT_EQ(spindle.speed_rad_s(), 0.0);
   EXPECT_EQ(spindle.motor_torque_n_mm(), 0.0);
@@ -43,6 +45,15 @@ TEST(Spindle, TakesTorqueToSpinUpAsItsInertiaSays) {
   // Half way up the ramp the speed grows by full / 0.25 s each second.
   const double expected_n_mm = 3600.0 * full_rad_s / 0.25 / 1000.0;
   EXPECT_NEAR(run(0.125, full_rad_s, {}).motor_torque_n_mm(), expected_n_mm, 0.02 * expected_n_mm);
+}
+
+TEST(Spindle, TellsWhatTheBoneTookOfItsTorque) {
+  Spindle spindle{SpindleSettings{}};
+  for (int tick = 0; tick < 100; ++tick) spindle.advance(full_rad_s, full_rad_s, {});
+  EXPECT_GT(spindle.motor_torque_n_mm(), 100.0) << "it still speeds up";
+  EXPECT_NEAR(spindle.bone_torque_n_mm(), 0.0, 1e-6) << "in the air";
+  for (int tick = 0; tick < 900; ++tick) spindle.advance(full_rad_s, full_rad_s, {one_n_m, false});
+  EXPECT_NEAR(spindle.bone_torque_n_mm(), one_n_m, 1e-6);
 }
 
 TEST(Spindle, SagsUnderTorque) {

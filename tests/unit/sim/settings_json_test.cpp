@@ -129,5 +129,20 @@ TEST(SettingsJson, RefuseWordsThatMeanNothing) {
                      [&] { settings_from_json(settings, "test"); });
 }
 
+TEST(SettingsJson, NumbersThatNoTickSurvivesAreRefused) {
+  Settings whole;
+  whole.spindle.emplace();
+  for (const char* path : {"/feed/spindle_rad_s", "/spindle/stall_torque_n_mm",
+                           "/spindle/droop_rad_s_per_n_mm", "/spindle/inertia_kg_mm2", "/spindle/start_s",
+                           "/spindle/coast_s", "/spindle/catch_ratio", "/spindle/mass_kg",
+                           "/heat/conductivity_w_m_k", "/heat/heat_capacity_mj_m3_k", "/heat/least_area_mm2"})
+    for (const double value : {0.0, -1.0}) {
+      json settings = to_json(whole);
+      settings[json::json_pointer(path)] = value;
+      test::expect_error(ErrorKind::invalid_input, "must be above 0",
+                         [&] { settings_from_json(settings, "test"); });
+    }
+}
+
 }  // namespace
 }  // namespace ream::sim

@@ -75,5 +75,28 @@ TEST(Slip, TheHandFeelsTheSpringUntilTheToolHasCome) {
   EXPECT_GT(slipping, 5);
 }
 
+/// Where a pause left the tool in the bone, force rises slowly again; the tool can leave at once.
+TEST(Slip, AToolThatAPauseLeftInTheBoneCanBeDrawnOut) {
+  device::Script script;
+  script.kind = device::ScriptKind::poses;
+  script.duration_s = 1.5;
+  script.stiffness_n_mm = stiffness_n_mm;
+  script.poses = {{0.0, Vec3(0, 0, -0.5)}, {0.2, Vec3(0, 0, 4)}, {1.0, Vec3(0, 0, 4)}, {1.1, Vec3(0, 0, -6)}};
+  script.buttons = {{0.0, true, false}, {0.8, true, true}, {0.9, true, false}};
+  sim::Settings settings = SmallRun::settings(script, "cpu", sim::RemovalLaw::profile, force::FeedKind::edge);
+  settings.spindle.emplace();
+  settings.start_up_ramp_s = 2.0;
+  voxel::BoneModel bone = slab({64, 64, 64}, ledge_voxel_mm, ledge_mm, 0.6);
+  const case_::Plan plan = slab_plan(bone, ledge_mm);
+  SmallRun run(std::move(bone), plan, "sphere 4,3", script, settings);
+  const auto reports = run.run();
+  ASSERT_EQ(reports.size(), 1500u);
+  EXPECT_TRUE(reports[750].engaged);
+  for (size_t i = 1150; i < reports.size(); ++i) ASSERT_FALSE(reports[i].engaged) << i;
+  EXPECT_LT(
+      (reports[1300].world_from_handle.translation_mm - reports[1300].world_from_tool.translation_mm).norm(),
+      1e-6);
+}
+
 }  // namespace
 }  // namespace ream::test
