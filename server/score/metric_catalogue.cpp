@@ -227,8 +227,7 @@ constexpr Metric catalogue[] = {
      not_negative, only_reported, Better::less},
     {"extrapolated_time_s", "Time in bone nobody measured", "s",
      "Time of cutting bone whose mean density lies outside 0.41 to 0.72 and 1.30 to 1.61 g/cc, where the "
-     "feed "
-     "laws were measured.",
+     "feed laws were measured.",
      "thesis table 5.1", tested, exact_sum, handling, ticks, not_negative, only_reported},
     {"path_in_contact_mm", "Path in contact", "mm",
      "Length of the way of the tool's apex in the bone's frame while it touches bone.", time_and_motion,

@@ -19,7 +19,7 @@ struct VibrationInput {
 
 /// How much stronger than in the thesis' experiments a cut shakes the reamer: chips break one by one along
 /// the edge, each with its load and unlike its neighbours, so amplitude rises with thrust and speed and falls
-/// with the root of the edge that shares the thrust (mechanics.md 10c; exponents of 1: engineering choice).
+/// with the root of the edge that shares the thrust (exponents of 1: engineering choice).
 /// Within 0 and max_cut_strength.
 double cut_strength(double thrust_n, double spindle_speed_rad_s, double edge_mm) noexcept;
 inline constexpr double max_cut_strength = 3.0;
