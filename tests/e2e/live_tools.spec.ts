@@ -150,37 +150,19 @@ test('the trainee’s view is the picture alone, and steers', async ({ page }, i
   expect((await page.evaluate(() => window.__ream)).deviceLink).toBe('holding');
 });
 
-/** Makes the server tell of sessions as one does that knows theatre mode. */
-async function emulateTheatreMode(page: Page): Promise<{ requests: boolean[] }> {
-  const observed = { requests: [] as boolean[] };
-  let theatre = false;
-  await page.route(/\/api\/v1\/sessions(\/[0-9a-z]+)?(\/start|\/stop)?(\?.*)?$/, async (route) => {
-    const request = route.request();
-    const requestBody = request.method() === 'POST' ? (request.postDataJSON() as { theatre?: boolean } | null) : null;
-    const { theatre: requests, ...rest } = requestBody ?? {};
-    if (requestBody !== null && request.url().endsWith('/sessions')) {
-      theatre = requests === true;
-      observed.requests.push(theatre);
-    }
-    const answer = await route.fetch(requestBody === null ? {} : { postData: JSON.stringify(rest) });
-    const body = (await answer.json()) as { sessions?: object[] };
-    const json = body.sessions
-      ? { ...body, sessions: body.sessions.map((s) => ({ ...s, theatre })) }
-      : { ...body, theatre };
-    await route.fulfill({ response: answer, json });
-  });
-  return observed;
-}
-
 test('in theatre there is nothing but the bone, an opaque reamer, sound and force', async ({ page }, info) => {
-  const observed = await emulateTheatreMode(page);
+  const sent: { theatre?: boolean }[] = [];
+  page.on('request', (request) => {
+    if (request.method() === 'POST' && request.url().endsWith('/sessions'))
+      sent.push(request.postDataJSON() as { theatre?: boolean });
+  });
   await open(page);
   await page.getByTestId('cut-away').click();
   await page.getByTestId('theatre-mode').check();
   await page.getByTestId('practise').click();
   const theatre = page.getByTestId('trainee-page');
   await expect(theatre).toHaveAttribute('data-theatre', 'true');
-  expect(observed.requests.at(-1)).toBe(true);
+  expect(sent.at(-1)?.theatre).toBe(true);
   await page.waitForFunction(() => window.__ream.deviceLink === 'holding', null, { timeout: 60_000 });
   for (const id of ['gauge-version', 'depth', 'force-plot', 'alarms', 'cut-away', 'leave-trainee', 'live-strip'])
     await expect(page.getByTestId(id)).toHaveCount(0);

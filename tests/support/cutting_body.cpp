@@ -15,6 +15,7 @@ namespace {
 constexpr double cell_mm = 0.02;  // of the distance table
 constexpr double bin_mm = 0.02;   // of the STL's envelope
 constexpr double sample_mm = 0.015;
+constexpr double rim_roundness_mm = 0.002;
 
 /// Squared distance.
 double to_segment2(const MeridianPoint& a, const MeridianPoint& b, double radius_mm, double z_mm) {
@@ -137,9 +138,10 @@ std::vector<MeridianPoint> ellipse_meridian(double a_mm, double b_mm) {
 std::vector<MeridianPoint> stl_meridian(const std::filesystem::path& stl, const Pose& tool_from_mesh,
                                         double nipple_radius_mm) {
   constexpr double none = -std::numeric_limits<double>::infinity();
+  const std::vector<Triangle> triangles = read_binary_stl(stl, tool_from_mesh);
   std::vector<double> highest;
   double rim = 0.0;
-  for (const Triangle& t : read_binary_stl(stl, tool_from_mesh))
+  for (const Triangle& t : triangles)
     sample(t, [&](const Vec3& p) {
       const double r = std::hypot(p.x(), p.y());
       const auto bin = static_cast<size_t>(r / bin_mm);
@@ -154,7 +156,12 @@ std::vector<MeridianPoint> stl_meridian(const std::filesystem::path& stl, const 
     if (front.empty()) front.push_back({0.0, highest[bin]});
     front.push_back({r, highest[bin]});
   }
-  front.push_back({rim, front.back().z_mm});
+  // The rim's corner is a ring of the mesh's own corners; within its bin the surface may fall steeply.
+  double rim_z = none;
+  for (const Triangle& t : triangles)
+    for (const Vec3& p : t)
+      if (std::hypot(p.x(), p.y()) > rim - rim_roundness_mm) rim_z = std::max(rim_z, p.z());
+  front.push_back({rim, rim_z});
   return front;
 }
 

@@ -263,9 +263,15 @@ TEST_F(Deceived, AnUnchangedCopyIsTheSame) {
 }
 
 TEST_F(Deceived, OneInputThatWasNotSo) {
+  // On bone every coordinate follows every other; the first that differs is named.
+  const VerifyResult pushed =
+      reaming_.verify(with_changed_tick(400, [](Tick& t) { t.world_from_handle.translation_nm[2] -= 200; }));
+  ASSERT_TRUE(pushed.difference.has_value());
+  expect_difference(pushed, 400, "pose", pushed.difference->field);
+  EXPECT_TRUE(pushed.difference->field.starts_with("grid_from_tool.")) << pushed.difference->field;
   expect_difference(
-      reaming_.verify(with_changed_tick(400, [](Tick& t) { t.world_from_handle.translation_nm[2] -= 200; })),
-      400, "pose", "grid_from_tool.z_nm");
+      reaming_.verify(with_changed_tick(8, [](Tick& t) { t.world_from_handle.translation_nm[2] -= 200; })), 8,
+      "pose", "grid_from_tool.z_nm");
   expect_difference(
       reaming_.verify(with_changed_tick(7, [](Tick& t) { t.world_from_handle.translation_nm[0] += 1; })), 7,
       "pose", "grid_from_tool.x_nm");
