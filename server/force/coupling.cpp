@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "core/clock.hpp"
+#include "core/units.hpp"
 
 namespace ream::force {
 namespace {
@@ -43,9 +44,6 @@ void move_over(const Vec3& direction, Vec6& from, Vec6& to) {
     to[i] += share;
   }
 }
-
-/// 1 N moves 1 kg with 1000 mm/s^2; likewise 1 N mm turns 1 kg mm^2 with 1000 rad/s^2.
-constexpr double mm_s2_per_n_kg = 1000.0;
 
 double inertia_kg_mm2(const VirtualMass& mass) {
   return mass.mass_kg * mass.gyration_radius_mm * mass.gyration_radius_mm;

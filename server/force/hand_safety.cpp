@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/clock.hpp"
+#include "core/units.hpp"
 
 namespace ream::force {
 namespace {
@@ -10,8 +11,7 @@ namespace {
 /// Most energy, mJ, that a force (or torque) of this size held for the coming tick can give a hand of that
 /// speed and readiness to move.
 double max_given_mj(double load, double speed, double speed_gain, double min_mass) {
-  constexpr double per_load_and_mass = 1000.0;  // 1 N moves 1 kg with 1000 mm/s^2
-  const double pushed = tick_s * per_load_and_mass * load / min_mass;
+  const double pushed = tick_s * mm_s2_per_n_kg * load / min_mass;
   return tick_s * load * (speed + speed_gain + pushed);
 }
 

@@ -4,12 +4,11 @@
 #include <cmath>
 
 #include "core/clock.hpp"
+#include "core/units.hpp"
 
 namespace ream::force {
 namespace {
 
-/// 1 N mm turns 1 kg mm^2 with 1000 rad/s^2.
-constexpr double rad_s2_per_n_mm = 1000.0;
 /// Time in which standing lips sink in, and the angle on which they tear loose. Engineering choices.
 constexpr double sinking_s = 0.05, tearing_rad = 0.2;
 
@@ -39,7 +38,7 @@ void Spindle::advance(double asked_rad_s, double full_rad_s, const SpindleLoad& 
   }
   follow(asked_rad_s, full_rad_s);
   // Implicit in the motor's own reaction to speed; bone only ever holds back.
-  const double gain = rad_s2_per_n_mm * tick_s / settings_->inertia_kg_mm2;
+  const double gain = rad_s2_per_n_mm_kg_mm2 * tick_s / settings_->inertia_kg_mm2;
   const double stiffness = 1.0 / settings_->droop_rad_s_per_n_mm;
   const double lost_rad_s = gain * held_back_n_mm(load);
   const double aimed_rad_s =

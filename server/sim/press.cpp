@@ -30,9 +30,6 @@ double max_translational(const collide::ContactSums::Part& part) {
   return static_cast<double>(std::max({part.second[0], part.second[6], part.second[11]}));
 }
 
-/// 1 N moves 1 kg with 1000 mm/s^2.
-constexpr double mm_s2_per_n_kg = 1000.0;
-
 /// Of weights and components of the contact sums: 1/127 each.
 constexpr double component = 1.0 / 127.0;
 

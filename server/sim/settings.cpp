@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "core/json_reader.hpp"
 
 namespace ream::sim {
@@ -267,6 +268,7 @@ void fit_to_device(const device::DeviceTraits& traits, double stiffness_n_mm, Se
   settings.start_up_ramp_s = traits.start_up_ramp_s;
   settings.energy_guarded = traits.energy_guarded;
   settings.vibration.vibration_max_n = traits.vibration_max_n;
+  settings.vibration.vibration_n_per_g = traits.handle_mass_kg * standard_gravity_m_s2;
   settings.virtual_mass.reset();
   if (traits.causality == device::Causality::admittance)
     settings.virtual_mass.emplace().mass_kg = traits.effective_mass_kg;

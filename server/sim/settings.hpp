@@ -62,8 +62,8 @@ nlohmann::json to_json(const Settings& settings);
 Settings settings_from_json(const nlohmann::json& json, const std::string& place);
 
 /// Fits settings to the device that renders them: coupling of `stiffness_n_mm` (hand side; 0: the most the
-/// device renders), the device's largest force and torque and their slew, its start-up ramp, how much it may
-/// vibrate, and for an admittance device its virtual mass.
+/// device renders), the device's largest force and torque and their slew, its start-up ramp, how it
+/// shakes its handle as the drill shakes, and how much it may, and for an admittance device its virtual mass.
 void fit_to_device(const device::DeviceTraits& traits, double stiffness_n_mm, Settings& settings);
 
 }  // namespace ream::sim

@@ -24,7 +24,7 @@ Vec3 numbers_above(JsonReader& reader, const std::string& key, bool may_be_zero)
   return {v[0], v[1], v[2]};
 }
 
-constexpr double min_rate_hz = 1000.0, max_rate_hz = 1.0e6, max_n_per_g = 5.0;
+constexpr double min_rate_hz = 1000.0, max_rate_hz = 1.0e6, max_n_per_g = 20.0;
 
 void parse_recordings(JsonReader& reader, ScriptVibration& vibration) {
   const auto file = [&](const std::string& key) {
@@ -204,7 +204,7 @@ ScriptVibration parse_vibration(JsonReader reader) {
   if (vibration.source != "synthesized" && vibration.source != "recording" && vibration.source != "off")
     reader.refuse("source", "must be 'synthesized', 'recording' or 'off'");
   if (vibration.source == "recording") parse_recordings(reader, vibration);
-  vibration.n_per_g = reader.number_or("n_per_g", vibration.n_per_g, 0.0, max_n_per_g);
+  if (reader.has("n_per_g")) vibration.n_per_g = reader.number("n_per_g", 0.0, max_n_per_g);
   reader.finish();
   return vibration;
 }

@@ -17,7 +17,7 @@ struct ScriptVibration {
   std::string source = "synthesized";                               ///< synthesized, recording or off
   std::filesystem::path cortical_file, cancellous_file, idle_file;  ///< WAV or CSV, for recording
   double rate_hz = 0.0;   ///< of CSV files without times; 0: not said
-  double n_per_g = 0.15;  ///< hand newtons per g
+  std::optional<double> n_per_g;  ///< hand newtons per g; empty: the device's handle shakes as the drill does
 
   /// Files as they are found from `folder`, where the script lies.
   void resolve(const std::filesystem::path& folder);

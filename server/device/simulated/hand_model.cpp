@@ -4,6 +4,7 @@
 
 #include "core/clock.hpp"
 #include "core/hash.hpp"
+#include "core/units.hpp"
 
 namespace ream::device {
 namespace {
@@ -24,8 +25,6 @@ double noise(uint64_t seed, uint64_t counter) {
   return static_cast<double>(word >> 11) * 0x1p-52 - 1.0;
 }
 
-constexpr double mm_s2_per_n_kg = 1000.0;          ///< 1 N on 1 kg
-constexpr double rad_s2_per_n_mm_kg_mm2 = 1000.0;  ///< 1 N mm on 1 kg mm^2
 
 size_t ticks_of(double time_s, size_t max_ticks) {
   return std::clamp(static_cast<size_t>(time_s / tick_s + 0.5), size_t{1}, max_ticks);

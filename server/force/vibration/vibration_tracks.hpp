@@ -58,9 +58,9 @@ struct VibrationRecordings {
 struct VibrationSettings {
   VibrationSource source = VibrationSource::synthesized;
   VibrationRecordings recordings;
-  /// Hand newtons per g of the reamer. Engineering choice: the strongest published blow, 2.6 g, makes 0.4 N.
-  double vibration_n_per_g = 0.15;
-  /// Limit of the vibration's own on the hand, beside that of the device. Engineering choice, hand newtons.
+  /// Hand newtons per g of the reamer: standard gravity times the mass of the handle, kg, that shall shake so.
+  double vibration_n_per_g = 0.45;
+  /// Limit of the vibration's own on the hand, beside that of the device, hand newtons.
   double vibration_max_n = 0.5;
 };
 

@@ -14,7 +14,6 @@ force::VibrationSettings vibration_settings(const device::ScriptVibration& scrip
   force::VibrationSettings settings;
   settings.source = force::vibration_source_from(script.source);
   settings.recordings = {script.cortical_file, script.cancellous_file, script.idle_file, script.rate_hz};
-  settings.vibration_n_per_g = script.n_per_g;
   return settings;
 }
 
@@ -27,6 +26,7 @@ sim::Settings settings_for(const RunRequest& request, const device::Script& scri
   settings.force_scale = script.force_scale;
   settings.vibration = vibration_settings(script.vibration);
   sim::fit_to_device(traits, script.stiffness_n_mm, settings);
+  if (script.vibration.n_per_g) settings.vibration.vibration_n_per_g = *script.vibration.n_per_g;
   settings.mount = script.mount;
   settings.random_seed = request.random_seed;
   settings.feed.kind =

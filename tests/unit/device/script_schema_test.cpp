@@ -135,7 +135,7 @@ INSTANTIATE_TEST_SUITE_P(
         R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "vibration": "off"})",
         R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "vibration": {"source": "none"}})",
         R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "vibration": {"volume": 1}})",
-        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "vibration": {"n_per_g": 6}})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "vibration": {"n_per_g": 21}})",
         R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "vibration": {"rate_hz": 22050}})",
         R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}],
             "vibration": {"source": "recording", "cortical_file": "a.wav"}})",
