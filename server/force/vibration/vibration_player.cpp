@@ -16,6 +16,16 @@ constexpr auto idle = static_cast<size_t>(VibrationKind::idle);
 /// Sets the starts of tracks apart from what else comes from the seed.
 constexpr uint64_t start_of_kind = 0x100;
 
+constexpr size_t track_samples_a_tick = static_cast<size_t>(vibration_track_rate_hz * tick_s);
+
+/// Of a loop, at a place within it.
+double between_samples(const VibrationTrack& track, double at) noexcept {
+  const auto low = static_cast<size_t>(at);
+  const double from = static_cast<double>(track[low]);
+  const double to = static_cast<double>(track[low + 1 < track.size() ? low + 1 : 0]);
+  return from + (at - static_cast<double>(low)) * (to - from);
+}
+
 /// The mean of (1 + d cos)^2 is 1 + d^2 / 2.
 const double lips_mean_square_kept = 1.0 / std::sqrt(1.0 + 0.5 * lip_pass_depth * lip_pass_depth);
 
@@ -55,28 +65,30 @@ VibrationGains VibrationMix::next(const VibrationInput& input) noexcept {
   return gains;
 }
 
-std::array<size_t, vibration_kinds> start_beats(const VibrationTracks& tracks, uint64_t seed) {
-  std::array<size_t, vibration_kinds> beats{};
-  for (size_t k = 0; k < vibration_kinds; ++k)
-    beats[k] = hash_combine(seed, start_of_kind + k) % (tracks.by_kind[k].device_g.size() / ticks_a_beat);
-  return beats;
+double track_speed(double spindle_speed_rad_s) noexcept {
+  return std::min(1.0, std::abs(spindle_speed_rad_s) / reference_spindle_rad_s);
 }
 
 VibrationPlayer::VibrationPlayer(std::shared_ptr<const VibrationTracks> tracks, uint64_t seed)
     : tracks_(std::move(tracks)) {
   if (!tracks_) return;
-  at_ = start_beats(*tracks_, seed);
-  for (size_t& at : at_) at *= ticks_a_beat;
+  for (size_t k = 0; k < vibration_kinds; ++k) {
+    const size_t ticks = tracks_->by_kind[k].size() / track_samples_a_tick;
+    at_[k] = static_cast<double>(hash_combine(seed, start_of_kind + k) % ticks * track_samples_a_tick);
+  }
 }
 
 double VibrationPlayer::next_g(const VibrationInput& input) noexcept {
   if (!tracks_) return 0.0;
   const VibrationGains gains = mix_.next(input);
+  const double step = track_samples_a_tick * track_speed(input.spindle_speed_rad_s);
   double sum_g = 0.0;
   for (size_t k = 0; k < vibration_kinds; ++k) {
-    const std::vector<float>& track = tracks_->by_kind[k].device_g;
-    sum_g += gains[k] * static_cast<double>(track[at_[k]]);
-    at_[k] = at_[k] + 1 < track.size() ? at_[k] + 1 : 0;
+    const VibrationTrack& track = tracks_->by_kind[k];
+    sum_g += gains[k] * between_samples(track, at_[k]);
+    at_[k] += step;
+    const auto length = static_cast<double>(track.size());
+    if (at_[k] >= length) at_[k] -= length;
   }
   return sum_g;
 }

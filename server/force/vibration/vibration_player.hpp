@@ -40,11 +40,12 @@ class VibrationMix {
   double lip_phase_rad_ = 0.0;
 };
 
-/// Where each track stands when tick 0 begins, in beats of 20 ticks: a different place for each seed.
-std::array<size_t, vibration_kinds> start_beats(const VibrationTracks& tracks, uint64_t seed);
+/// How fast tracks run, over how they were made: chips follow each other as fast as the lips move, so the
+/// spectrum's corner moves with the spindle. Above the experiments' speed it has left what can be felt.
+double track_speed(double spindle_speed_rad_s) noexcept;
 
-/// The acceleration of the reamer, tick after tick. Without tracks it is still. Nothing that decides depends
-/// on it. No allocation, no lock, no exception.
+/// The acceleration of the reamer, tick after tick. Each seed starts at places of its own in the tracks; without
+/// tracks it is still. Nothing that decides depends on it. No allocation, no lock, no exception.
 class VibrationPlayer {
  public:
   VibrationPlayer() = default;
@@ -56,7 +57,7 @@ class VibrationPlayer {
  private:
   std::shared_ptr<const VibrationTracks> tracks_;
   VibrationMix mix_;
-  std::array<size_t, vibration_kinds> at_{};  ///< next sample of each track
+  std::array<double, vibration_kinds> at_{};  ///< next place in each track, samples
 };
 
 }  // namespace ream::force

@@ -50,6 +50,8 @@ std::vector<float> converted(std::span<const float> signal, double ratio, int co
   return out;
 }
 
+constexpr double beat_s = 0.02;
+
 /// Going far down, a first step to this many times the new rate may be coarse (its passband is 80 %), which
 /// leaves the dear filter little to do.
 constexpr double coarse_step_times = 2.205;
@@ -85,17 +87,18 @@ std::vector<float> resampled(std::span<const float> signal, double from_hz, doub
   return converted(coarse, to_hz / between_hz, SRC_SINC_BEST_QUALITY);
 }
 
-std::vector<float> loop_at_tick_rate(std::span<const float> loop) {
-  const size_t beats = loop.size() / sound_samples_a_beat;
+std::vector<float> resampled_loop(std::span<const float> loop, double from_hz, double to_hz) {
   // The filters see the loop go on at both ends; what they make of the borders is cut off again.
   constexpr size_t border_beats = 25;
-  const size_t border = border_beats * sound_samples_a_beat;
+  const auto beat_from = static_cast<size_t>(std::lround(from_hz * beat_s));
+  const auto beat_to = static_cast<size_t>(std::lround(to_hz * beat_s));
+  const size_t border = border_beats * beat_from;
   std::vector<float> longer(loop.size() + 2 * border);
   for (size_t i = 0; i < longer.size(); ++i)
     longer[i] = loop[(i + border_beats * loop.size() - border) % loop.size()];
-  const std::vector<float> out = resampled(longer, vibration_sound_rate_hz, 1.0 / tick_s);
-  const auto first = out.begin() + static_cast<std::ptrdiff_t>(border_beats * ticks_a_beat);
-  return {first, first + static_cast<std::ptrdiff_t>(beats * ticks_a_beat)};
+  const std::vector<float> out = resampled(longer, from_hz, to_hz);
+  const auto first = out.begin() + static_cast<std::ptrdiff_t>(border_beats * beat_to);
+  return {first, first + static_cast<std::ptrdiff_t>(loop.size() / beat_from * beat_to)};
 }
 
 }  // namespace ream::force

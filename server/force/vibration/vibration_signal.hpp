@@ -26,7 +26,8 @@ void filter_in_place(const Butterworth4& filter, std::span<double> signal);
 /// samples of both fall together. Ratios of 1/200 to 200. Before and after the signal there is silence.
 std::vector<float> resampled(std::span<const float> signal, double from_hz, double to_hz);
 
-/// A loop of 22,050 Hz (a whole number of beats of 441 samples) as a loop of 1 kHz (as many beats of 20).
-std::vector<float> loop_at_tick_rate(std::span<const float> loop);
+/// A loop of whole beats (20 ms) at another rate, as many beats. Both rates have a whole number of samples a
+/// beat.
+std::vector<float> resampled_loop(std::span<const float> loop, double from_hz, double to_hz);
 
 }  // namespace ream::force

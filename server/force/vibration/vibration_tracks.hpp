@@ -28,13 +28,13 @@ struct VibrationLevel {
 inline constexpr std::array<VibrationLevel, vibration_kinds> vibration_levels{
     {{0.40, 0.07, 5.28, 60.0}, {0.30, 0.09, 4.93, 60.0}, {0.10, 0.0, 0.0, 20.0}, {0.05, 0.0, 0.0, 20.0}}};
 
-inline constexpr double vibration_sound_rate_hz =
-    22050.0;                                            ///< of the experiments (thesis 5.3); kept for sound
+inline constexpr double vibration_raw_rate_hz = 22050.0;  ///< of the experiments (thesis 5.3)
 inline constexpr double vibration_high_pass_hz = 0.2;   ///< takes gravity away (thesis 5.3)
 inline constexpr double vibration_low_pass_hz = 500.0;  ///< ends what can be felt (thesis 5.3)
 
-/// The shortest time that is a whole number of samples at 22,050 Hz and of ticks.
-inline constexpr size_t sound_samples_a_beat = 441, ticks_a_beat = 20;
+/// Of the prepared tracks: a player that reads between two samples loses next to nothing of what lies below
+/// 500 Hz.
+inline constexpr double vibration_track_rate_hz = 4000.0;
 
 /// Depth of the modulation of amplitude as the lips pass, 13 times a second at 156 rpm. Engineering choice.
 inline constexpr double lip_pass_depth = 0.2;
@@ -64,11 +64,9 @@ struct VibrationSettings {
   double vibration_max_n = 0.5;
 };
 
-/// Acceleration of the tool in g as a loop without a seam, at two rates. Both have the same g_rms.
-struct VibrationTrack {
-  std::vector<float> sound_g;   ///< 22,050 Hz, a whole number of beats of 441 samples
-  std::vector<float> device_g;  ///< 1 kHz, as many beats of 20 samples
-};
+/// Acceleration of the tool in g as a loop without a seam, at vibration_track_rate_hz and without what 1 kHz
+/// cannot hold.
+using VibrationTrack = std::vector<float>;
 
 /// Time in which the end of a signal gives way to its beginning: the track is this much shorter. Seconds.
 inline constexpr double vibration_seam_s = 0.5;
@@ -76,8 +74,8 @@ inline constexpr double vibration_seam_s = 0.5;
 inline constexpr double min_vibration_s = 2.0;
 
 /// The one way from a raw signal at 22,050 Hz, in any unit, to a track (thesis 5.3): Butterworth of order
-/// four, high-pass 0.2 Hz and low-pass 500 Hz; end faded into beginning; resampled to 1 kHz; each rate scaled
-/// to `g_rms`. Same input, same bits on one machine; it uses libm, and nothing that decides depends on it.
+/// four, high-pass 0.2 Hz and low-pass 500 Hz; end faded into beginning; resampled to 1 kHz and from there to
+/// the tracks' rate; scaled to `g_rms`. Same input, same bits on one machine; it uses libm, and nothing that decides depends on it.
 /// `signal` is used up. `name` tells people what it was. Errors: invalid_input when it is shorter than
 /// min_vibration_s or still.
 VibrationTrack prepared_vibration(std::vector<double> signal, double g_rms, const char* name);
@@ -105,9 +103,8 @@ double specimen_vibration(VibrationKind kind, uint64_t seed);
 
 /// Raw vibration of one kind at 22,050 Hz, to be prepared as a recording is. Noise and, for bone, blows of
 /// bounded random size come through one colouring filter without a resonance: the spectrum rises up to the
-/// end of what a hand can feel and has no line, and peak-to-peak is 13 to 16 times g_rms where a Gaussian has
-/// 7 to
-/// 8. Same seed, same samples on one machine; other seeds are independent of each other, and so are kinds.
+/// material's corner (or the end of what a hand can feel) and has no line, and peak-to-peak is 13 to 16 times
+/// g_rms where a Gaussian has 7 to 8. Same seed, same samples on one machine; other seeds are independent of each other, and so are kinds.
 std::vector<double> synthesized_vibration(VibrationKind kind, uint64_t seed);
 
 }  // namespace ream::force

@@ -5,9 +5,7 @@
 #include <cmath>
 
 #include "core/units.hpp"
-#include "force/vibration/vibration_signal.hpp"
 #include "support/spectrum.hpp"
-#include "unit/force/vibration_sound.hpp"
 
 namespace ream::force {
 namespace {
@@ -24,8 +22,7 @@ VibrationInput reaming(double cancellous, double cortical, double cartilage = 0.
 std::shared_ptr<const VibrationTracks> constant_tracks(std::array<float, vibration_kinds> g) {
   auto tracks = std::make_shared<VibrationTracks>();
   for (size_t k = 0; k < vibration_kinds; ++k) {
-    tracks->by_kind[k].device_g.assign((k + 1) * ticks_a_beat, g[k]);
-    tracks->by_kind[k].sound_g.assign((k + 1) * sound_samples_a_beat, g[k]);
+    tracks->by_kind[k].assign((k + 1) * 80, g[k]);
   }
   return tracks;
 }
@@ -126,6 +123,48 @@ TEST(VibrationPlayer, VariancesAddByShare) {
   EXPECT_NEAR(mean_square(player, turning_free, 20000) / (0.05 * 0.05), 1.0, 1e-6) << "a whole loop";
 }
 
+/// Median frequency of the power below 500 Hz, Hz.
+double median_hz(const VibrationTracks& tracks, const VibrationInput& input) {
+  VibrationPlayer player(std::make_shared<const VibrationTracks>(tracks), 5);
+  std::vector<double> g(60000);
+  for (double& sample : g) sample = player.next_g(input);
+  const std::vector<double> bins = test::welch_1khz(g);
+  const double half = 0.5 * test::band_power(bins, 0, 500);
+  size_t f = 1;
+  while (test::band_power(bins, 0, f) < half) ++f;
+  return static_cast<double>(f);
+}
+
+TEST(VibrationPlayer, TheSpectrumFollowsSpeedAndBone) {
+  auto tracks = *make_vibration_tracks({}, 5);
+  tracks.by_kind[static_cast<size_t>(VibrationKind::idle)].assign(80, 0.0f);
+  const auto at_rpm = [&](VibrationInput input, double rpm) {
+    input.spindle_speed_rad_s = rad_s_from_rpm(rpm);
+    return median_hz(tracks, input);
+  };
+  const double cancellous = at_rpm(reaming(1.0, 0.0), 156.0), cortical = at_rpm(reaming(0.0, 1.0), 156.0),
+               cartilage = at_rpm(reaming(0.0, 0.0, 1.0), 156.0);
+  EXPECT_LT(1.3 * cartilage, cancellous);
+  EXPECT_LT(1.05 * cancellous, cortical) << "what is above 500 Hz is not felt";
+  for (const double share : {0.25, 0.5, 0.75}) {
+    EXPECT_NEAR(at_rpm(reaming(1.0, 0.0), 156.0 * share) / cancellous, share, 0.05) << share;
+    EXPECT_NEAR(at_rpm(reaming(0.0, 1.0), 156.0 * share) / cortical, share, 0.05) << share;
+  }
+}
+
+/// Reading between samples must not make a drill quieter that is a little slower than the experiments'.
+TEST(VibrationPlayer, StrengthDoesNotDependOnWhereSamplesFall) {
+  const auto tracks = make_vibration_tracks({}, 6);
+  const auto at_share = [&](double share) {
+    VibrationPlayer player(tracks, 6);
+    VibrationInput input = reaming(0.0, 1.0);
+    input.spindle_speed_rad_s = share * speed_rad_s;
+    return mean_square(player, input, 60000);
+  };
+  const double whole = at_share(1.0);
+  for (const double share : {0.999, 0.97, 0.9, 0.61}) EXPECT_NEAR(at_share(share) / whole, 1.0, 0.1) << share;
+}
+
 TEST(VibrationPlayer, TheSeedChoosesWhereTracksStart) {
   const auto tracks = make_vibration_tracks({}, 1);
   const auto first = [&](uint64_t seed) {
@@ -136,46 +175,6 @@ TEST(VibrationPlayer, TheSeedChoosesWhereTracksStart) {
   };
   EXPECT_EQ(first(1), first(1));
   EXPECT_NE(first(1), first(2));
-}
-
-TEST(VibrationSound, HasSamplesForEveryTick) {
-  VibrationSound sound(constant_tracks({0.0f, 0.0f, 0.0f, 2.0f}), 3);
-  std::vector<float> samples;
-  sound.render(std::vector<VibrationInput>(1, turning_free), samples);
-  EXPECT_EQ(samples.size(), 1u);
-  for (int i = 0; i < 20; ++i) sound.render(std::vector<VibrationInput>(1, turning_free), samples);
-  EXPECT_EQ(samples.size(), 1u + 441u);
-  sound.render(std::vector<VibrationInput>(980, turning_free), samples);
-  EXPECT_EQ(samples.size(), 1u + 22050u);
-  EXPECT_NEAR(samples.front(), 2.0f / 50.0f, 1e-6);
-  EXPECT_NEAR(samples.back(), 2.0f, 1e-6);
-  for (size_t i = 1; i < samples.size(); ++i) ASSERT_GE(samples[i], samples[i - 1]);
-}
-
-TEST(VibrationSound, IsWhatTheHandFeels) {
-  const auto tracks = make_vibration_tracks({}, 4);
-  VibrationPlayer player(tracks, 17);
-  VibrationSound sound(tracks, 17);
-  // A loop that begins and ends in silence, so that it can be resampled as one.
-  std::vector<VibrationInput> ticks;
-  ticks.reserve(4000);
-  for (int i = 0; i < 4000; ++i)
-    ticks.push_back(i < 500 || i >= 3500 ? off
-                    : i < 1000           ? turning_free
-                                         : reaming(i / 4000.0, 1.0 - i / 4000.0));
-  std::vector<float> heard;
-  for (size_t i = 0; i < ticks.size(); i += 500) sound.render(std::span(ticks).subspan(i, 500), heard);
-  heard.resize(4000 / ticks_a_beat * sound_samples_a_beat);
-  const std::vector<float> heard_at_ticks = loop_at_tick_rate(heard);
-  double felt_squares = 0.0, product = 0.0, heard_squares = 0.0;
-  for (size_t i = 0; i < ticks.size(); ++i) {
-    const double felt = player.next_g(ticks[i]), h = heard_at_ticks[i];
-    felt_squares += felt * felt;
-    product += felt * h;
-    heard_squares += h * h;
-  }
-  EXPECT_GT(product / std::sqrt(felt_squares * heard_squares), 0.999);
-  EXPECT_NEAR(std::sqrt(heard_squares / felt_squares), 1.0, 0.05) << "sound has a little more above 450 Hz";
 }
 
 }  // namespace
