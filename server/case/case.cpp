@@ -12,6 +12,7 @@
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/json_reader.hpp"
+#include "force/edge_load.hpp"
 #include "geometry/pose_json.hpp"
 #include "voxel/bricks.hpp"
 
@@ -42,6 +43,7 @@ json to_json(const Case& c) {
                 {"calibration", to_json(c.calibration)},
                 {"warnings", c.warnings}};
   if (c.glenoid) value["glenoid"] = to_json(*c.glenoid);
+  if (c.cutting) value["cutting"] = force::to_json(*c.cutting);
   return value;
 }
 
@@ -98,6 +100,7 @@ Case load_case_description(const fs::path& folder) {
   if (!reader.has("calibration")) reader.refuse("calibration", "is missing");
   c.calibration = calibration_from_json(value.at("calibration"), reader.place() + ".calibration");
   if (reader.has("glenoid")) c.glenoid = glenoid_from_json(reader.object("glenoid"));
+  if (reader.has("cutting")) c.cutting = force::cutting_from_json(reader.object("cutting"));
   c.warnings = reader.texts_or_none("warnings");
   reader.finish();
   const fs::path plan = folder / "plan.json";

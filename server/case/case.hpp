@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "force/coefficients.hpp"
 #include "voxel/bone_model.hpp"
 
 namespace ream {
@@ -68,6 +69,7 @@ struct Case {
   Calibration calibration;
   std::optional<GlenoidFrame> glenoid;
   std::optional<Plan> plan;
+  std::optional<force::CuttingCoefficients> cutting;  ///< how this bone is cut; empty: the default
   std::vector<std::string> warnings;
 };
 

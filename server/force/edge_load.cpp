@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "core/hash.hpp"
 
@@ -61,6 +62,21 @@ std::array<uint32_t, 256> edge_resistances(double density_step_g_cc, size_t cart
         static_cast<uint32_t>(std::clamp(std::lround(edge_resistance_codes_s_mm / feed_mm_s), 1L, 4095L));
   }
   return table;
+}
+
+CuttingCoefficients cutting_from_json(JsonReader reader) {
+  CuttingCoefficients c;
+  c.edge_reference_mm = reader.number_or("edge_reference_mm", c.edge_reference_mm, 5.0, 100.0);
+  c.edge_threshold_share = reader.number_or("edge_threshold_share", c.edge_threshold_share, 0.0, 0.95);
+  c.tangential_ratio = reader.number_or("tangential_ratio", c.tangential_ratio, 0.1, 3.0);
+  reader.finish();
+  return c;
+}
+
+nlohmann::json to_json(const CuttingCoefficients& cutting) {
+  return {{"edge_reference_mm", cutting.edge_reference_mm},
+          {"edge_threshold_share", cutting.edge_threshold_share},
+          {"tangential_ratio", cutting.tangential_ratio}};
 }
 
 EdgeFeedModel::EdgeFeedModel(const FeedSettings& settings, const Lip&)

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/json_reader.hpp"
 #include "force/feed_model.hpp"
 
 namespace ream::force {
@@ -15,6 +16,11 @@ bool is_fitted_density(double density_g_cc) noexcept;
 /// of cartilage. In 1/edge_resistance_codes_s_mm, 1 to 4095.
 std::array<uint32_t, 256> edge_resistances(double density_step_g_cc, size_t cartilage_code);
 inline constexpr double edge_resistance_codes_s_mm = 32.0;
+
+/// The key "cutting" of scripts and cases (proto/script.schema.json, $defs/cutting): what of EdgeFeedModel's
+/// coefficients it says. Consumes the reader.
+CuttingCoefficients cutting_from_json(JsonReader reader);
+nlohmann::json to_json(const CuttingCoefficients& cutting);
 
 /// Feed by the cutting edge that is engaged, anchored at the thesis. At a place at radius r pass lip_count
 /// lips a turn, so edge per area is lip_count / (2 pi r). Every lip takes a chip as thick as the surface

@@ -116,14 +116,14 @@ test('always says how late picture and loop are, and sounds only when asked', as
   await expect.poll(async () => Number(await page.getByTestId('latency').textContent())).toBeGreaterThan(0);
   await expect(page.getByTestId('loop-health')).toContainText(/on time|late/);
   await expect
-    .poll(async () => (await page.evaluate(() => window.__ream.sound)).cuttingGain, { timeout: 90_000 })
+    .poll(async () => (await page.evaluate(() => window.__ream.sound)).trackGain, { timeout: 90_000 })
     .toBeGreaterThan(0);
   await page.screenshot({ path: info.outputPath('strip.png') });
 
   // Nothing is heard, and no figure stands, once nothing is heard of the server.
   await here.server.kill();
   await expect(page.getByTestId('picture')).toHaveAttribute('data-stale', 'true');
-  expect(await page.evaluate(() => window.__ream.sound)).toMatchObject({ motorGain: 0, cuttingGain: 0 });
+  expect(await page.evaluate(() => window.__ream.sound)).toMatchObject({ motorGain: 0, cuttingGain: 0, trackGain: 0 });
   await expect(page.getByTestId('latency')).toHaveText('–');
   await page.keyboard.press('m');
   await expect(sound).toHaveAttribute('aria-pressed', 'false');

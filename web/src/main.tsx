@@ -69,7 +69,7 @@ function main(root: HTMLElement): void {
   effect(() => scene.setToolShown(store.reamerShown.value));
   const liveCase = new LiveCase(store, () => identity.may.value.readCases, window.location.origin);
   const alarms = new Alarms(store);
-  const sound = new Sound(store, practiceStore, async () => (await import('./sound/sound_output')).SoundOutput.open());
+  const sound = new Sound(store, async () => (await import('./sound/sound_output')).SoundOutput.open());
   const latency = measureLatency(store, practiceStore, scene);
   publishDebugReadout({ store, practice: practiceStore, scene, sound, latency });
   const view = new ViewSettings();

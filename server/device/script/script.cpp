@@ -11,6 +11,7 @@
 #include "core/json_reader.hpp"
 #include "core/units.hpp"
 #include "device/profiles.hpp"
+#include "force/edge_load.hpp"
 #include "force/feed_model.hpp"
 
 namespace ream::device {
@@ -209,15 +210,6 @@ ScriptVibration parse_vibration(JsonReader reader) {
   return vibration;
 }
 
-force::CuttingCoefficients parse_cutting(JsonReader reader) {
-  force::CuttingCoefficients c;
-  c.edge_reference_mm = reader.number_or("edge_reference_mm", c.edge_reference_mm, 5.0, 100.0);
-  c.edge_threshold_share = reader.number_or("edge_threshold_share", c.edge_threshold_share, 0.0, 0.95);
-  c.tangential_ratio = reader.number_or("tangential_ratio", c.tangential_ratio, 0.1, 3.0);
-  reader.finish();
-  return c;
-}
-
 /// The key "drive": "ideal" (empty), or an object.
 std::optional<force::SpindleSettings> parse_drive(const nlohmann::json& value, JsonReader& script) {
   if (value.is_string()) {
@@ -258,7 +250,7 @@ Script parse_script(const nlohmann::json& json, const std::string& where) {
   if (!force::find_feed_kind(script.feed_model))
     reader.refuse("feed_model", "must be " + force::feed_model_names("'"));
   script.specimen_factor = reader.number_or("specimen_factor", script.specimen_factor, 0.1, 10.0);
-  if (reader.has("cutting")) script.cutting = parse_cutting(reader.object("cutting"));
+  if (reader.has("cutting")) script.cutting = force::cutting_from_json(reader.object("cutting"));
   if (reader.has("drive")) script.drive = parse_drive(json.at("drive"), reader);
   if (reader.has("mount")) script.mount = parse_mount(json.at("mount"), reader);
   if (script.kind == ScriptKind::hand) script.hand = parse_hand(reader.object("hand"));

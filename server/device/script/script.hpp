@@ -100,7 +100,7 @@ struct Script {
   double spindle_rpm = 156.0;
   std::string feed_model = "edge";  ///< one of force::feed_models()
   double specimen_factor = 1.0;     ///< feed of this specimen over the feed law's
-  force::CuttingCoefficients cutting;
+  std::optional<force::CuttingCoefficients> cutting;  ///< empty: the case's
   /// Empty: the spindle turns as it is asked to, whatever holds it.
   std::optional<force::SpindleSettings> drive = force::SpindleSettings{};
   ScriptVibration vibration;

@@ -18,7 +18,7 @@ force::VibrationSettings vibration_settings(const device::ScriptVibration& scrip
 }
 
 sim::Settings settings_for(const RunRequest& request, const device::Script& script,
-                           const device::DeviceTraits& traits) {
+                           const case_::Case& bone_case, const device::DeviceTraits& traits) {
   sim::Settings settings;
   settings.backend = request.backend;
   settings.removal = request.removal;
@@ -33,7 +33,9 @@ sim::Settings settings_for(const RunRequest& request, const device::Script& scri
       force::feed_kind_from_text(request.feed_model.empty() ? script.feed_model : request.feed_model);
   settings.feed.spindle_rad_s = rad_s_from_rpm(script.spindle_rpm);
   settings.feed.specimen_factor = script.specimen_factor;
-  settings.feed.cutting = script.cutting;
+  // A study's script says what it compares; else bone is cut as its case says.
+  settings.feed.cutting =
+      script.cutting.value_or(bone_case.cutting.value_or(force::CuttingCoefficients{}));
   settings.spindle = script.drive;
   return settings;
 }
@@ -67,7 +69,7 @@ SimulationSetup build_setup(const RunRequest& request, const std::filesystem::pa
                                                  sim::world_from_plan(plan), request.random_seed, data});
   parts.device = std::move(made.device);
   parts.link = std::move(made.link);
-  parts.settings = settings_for(request, parts.script, parts.device->traits());
+  parts.settings = settings_for(request, parts.script, parts.bone_case, parts.device->traits());
   parts.anatomy = find_anatomy(parts.bone_case, request.case_name, data);
   parts.native = measured_glenoid(parts.bone_case, parts.anatomy, parts.tool);
   return parts;

@@ -44,6 +44,10 @@ class CaseFolder : public testing::Test {
     c.calibration = {1.5, 0.7, 180.0};
     c.glenoid = GlenoidFrame{{1, 2, 3}, Vec3::UnitX(), Vec3::UnitZ(), -Vec3::UnitY()};
     c.plan = Plan{{1.25, -2.5, 1.0 / 3.0}, Vec3(1, 2, 2) / 3.0, 1.5, "sphere 20", PilotHole{5.0, 9.0}};
+    c.cutting = force::CuttingCoefficients{};
+    c.cutting->edge_reference_mm = 20.0;
+    c.cutting->edge_threshold_share = 0.25;
+    c.cutting->tangential_ratio = 1.2;
     c.warnings = {"odd"};
     return c;
   }
@@ -90,6 +94,10 @@ TEST_F(CaseFolder, RoundTripKeepsEveryBit) {
   EXPECT_EQ(r.plan->axis_direction, c.plan->axis_direction);
   EXPECT_EQ(r.plan->reamer, c.plan->reamer);
   EXPECT_EQ(r.plan->pilot_hole->depth_mm, 9.0);
+  ASSERT_TRUE(r.cutting.has_value());
+  EXPECT_EQ(r.cutting->edge_reference_mm, 20.0);
+  EXPECT_EQ(r.cutting->edge_threshold_share, 0.25);
+  EXPECT_EQ(r.cutting->tangential_ratio, 1.2);
   EXPECT_EQ(r.warnings, c.warnings);
   const Case described = load_case_description(root_ / "c");
   EXPECT_EQ(described.id, c.id);
@@ -113,6 +121,8 @@ TEST_F(CaseFolder, NamesWhatIsWrong) {
   has([](auto& v) { v["dims"] = {16, 8, 16}; }, "case.json says 2048");
   has([](auto& v) { v["spacing_mm"] = {0.1, 0.0, 0.1}; }, "voxel size");
   has([](auto& v) { v["world_from_grid"]["rotation"][0][0] = 5.0; }, "key 'rotation'");
+  has([](auto& v) { v["cutting"]["edge_reference_mm"] = 4.0; }, "key 'edge_reference_mm'");
+  has([](auto& v) { v["cutting"]["friction"] = 1.0; }, "key 'friction' is unknown");
   has([](auto& v) { v["id"] = "Not An Id"; }, "key 'id'");
   EXPECT_NE(complaint_of_loading(root_ / "nowhere").find("is not a case"), std::string::npos);
 }

@@ -35,7 +35,7 @@ const Rooms& drawn_arrows() {
       {"report", {"score"}},
       {"ct", {"case", "isolation"}},
       {"fe", {"case"}},
-      {"case", {"voxel", "shell"}},
+      {"case", {"voxel", "shell", "force"}},
       {"shell", {"voxel", "voxelizer"}},
       {"voxelizer", {"geometry", "gpu"}},
       {"record", {"case", "device"}},

@@ -82,6 +82,30 @@ INSTANTIATE_TEST_SUITE_P(Profiles, VerifyDevices,
                            return name;
                          });
 
+/// Bone is cut as its case says, unless the script says it, and a recording goes on as it was made.
+TEST(VerifyReplay, TheCaseSaysHowItsBoneIsCut) {
+  const auto edge_mm = [](const RecordedReaming& reaming, json script) {
+    return build_setup(reaming.request(script), reaming.data()).settings.feed.cutting.edge_reference_mm;
+  };
+  RecordedReaming reaming;
+  const std::filesystem::path folder = reaming.data() / "cases/slab";
+  const json script = RecordedReaming::push("ideal");
+  EXPECT_EQ(edge_mm(reaming, script), force::CuttingCoefficients{}.edge_reference_mm);
+  case_::Case c = case_::load_case(folder);
+  c.cutting = force::CuttingCoefficients{};
+  c.cutting->edge_reference_mm = 25.0;
+  case_::save_bone(c, folder);
+  EXPECT_EQ(edge_mm(reaming, script), 25.0);
+  json compared = script;
+  compared["cutting"] = {{"edge_reference_mm", 50.0}};
+  EXPECT_EQ(edge_mm(reaming, compared), 50.0);
+
+  const std::filesystem::path path = reaming.record(script);
+  c.cutting.reset();
+  case_::save_bone(c, folder);
+  EXPECT_FALSE(reaming.verify(path, "cpu").difference.has_value());
+}
+
 /// The recording in the loop's own hands: what it sends is reamed, recorded and scored as the first time.
 TEST(VerifyReplay, ARecordingIsADevice) {
   for (const char* profile : {"touch", "ideal-admittance"}) {

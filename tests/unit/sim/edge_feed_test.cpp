@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iostream>
 
 #include "force/coefficients.hpp"
 #include "force/edge_load.hpp"
@@ -41,6 +42,7 @@ voxel::BoneModel round_post(double area_mm2, double aside_mm, double density_g_c
 /// The second half of two seconds of pressing.
 struct Pressing {
   double feed_mm_s = 0.0;
+  double energy_j_mm3 = 0.0;  ///< of the spindle, for what was removed
   record::TickReport last;
   Pose plan_from_world;
 
@@ -55,8 +57,15 @@ Pressing press(voxel::BoneModel bone, const char* tool, double force_n = pressed
   const auto reports = run.run();
   const auto &a = reports[1000], &b = reports.back();
   const Vec3 way_mm = b.world_from_tool.translation_mm - a.world_from_tool.translation_mm;
-  return {way_mm.dot(plan.axis_direction) / (1e-3 * static_cast<double>(b.tick - a.tick)), b,
-          run.model.world_from_plan.inverse()};
+  double work_j = 0.0, removed_mm3 = 0.0;
+  for (size_t i = 1000; i < reports.size(); ++i) {
+    const auto& r = reports[i];
+    work_j += 1e-6 * r.spindle_torque_n_mm * r.spindle_speed_rad_s;
+    for (const int64_t levels : r.coverage_removed)
+      removed_mm3 += static_cast<double>(levels) / 255.0 * std::pow(post_voxel_mm, 3);
+  }
+  return {way_mm.dot(plan.axis_direction) / (1e-3 * static_cast<double>(b.tick - a.tick)),
+          work_j / removed_mm3, b, run.model.world_from_plan.inverse()};
 }
 
 /// A tool that is all but flat where it touches.
@@ -76,6 +85,25 @@ TEST(EdgeFeed, AConcentricPunchFeedsByItsRadius) {
     // Torque: load q along the edge times r: q (lips / 2 pi) A, with q = F / edge.
     const double torque_n_mm = pressed_n / edge_mm * lips / (2.0 * pi) * area_mm2;
     EXPECT_NEAR(steady.last.spindle_torque_n_mm, torque_n_mm, 0.06 * torque_n_mm) << area_mm2;
+  }
+}
+
+/// With phi 0 the load of a lip over its chip is a constant of the bone, so what a removed volume costs does
+/// not depend on where and how much the reamer touches: load per edge, over the chip that a lip takes of it.
+TEST(EdgeFeed, ARemovedVolumeCostsTheSameInEveryContact) {
+  constexpr double turns_a_second = 2.6;
+  const double j_mm3 = 1e-3 * pressed_n / reference_edge_mm * lips * turns_a_second / law_mm_s;
+  EXPECT_NEAR(j_mm3, 0.27, 0.01);
+  for (const double area_mm2 : {30.0, 100.0, 300.0, 600.0})
+    EXPECT_NEAR(press(round_post(area_mm2, 0.0), flat_tool).energy_j_mm3, j_mm3, 0.1 * j_mm3) << area_mm2;
+  EXPECT_NEAR(press(round_post(50.0, 9.0), flat_tool).energy_j_mm3, j_mm3, 0.2 * j_mm3) << "it walks";
+  for (const double force_n : {5.0, 120.0})
+    EXPECT_NEAR(press(round_post(100.0, 0.0), flat_tool, force_n).energy_j_mm3, j_mm3, 0.1 * j_mm3) << force_n;
+  for (const double density_g_cc : {0.41, 0.72, 1.0, 1.3, 1.61, 1.9}) {
+    const double cost = press(round_post(100.0, 0.0, density_g_cc), flat_tool).energy_j_mm3;
+    std::cout << density_g_cc << " g/cc: " << cost << " J/mm3\n";
+    EXPECT_GT(cost, 0.03) << density_g_cc;
+    EXPECT_LT(cost, 5.0) << density_g_cc;
   }
 }
 

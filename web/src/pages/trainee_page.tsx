@@ -3,7 +3,7 @@ import { useMemo } from 'preact/hooks';
 import { liveText } from '../text/live_text';
 import { useLiveKeys } from '../panels/picture/live_keys';
 import { Picture } from '../panels/live/picture';
-import { IrrigationButton } from '../panels/live/practice_bar';
+import { DriveButtons, PauseButton } from '../panels/live/practice_bar';
 import { SoundButton } from '../panels/picture/sound_button';
 import { addressOfReplay } from '../state/replay_address';
 import { appText } from '../text/app_text';
@@ -50,32 +50,11 @@ export function TraineePage(parts: LivePageParts) {
 /** What hands without keys need; pushing is the pointer's. */
 function HoldButtons({ practiceStore, scene }: LivePageParts) {
   const { hand } = practiceStore;
-  const press = (action: () => void) => () => {
-    hand.takeHold();
-    action();
-    scene.canvas.focus({ preventScroll: true });
-  };
+  const toPicture = () => scene.canvas.focus({ preventScroll: true });
   return (
     <>
-      <button
-        type="button"
-        class="hand-button"
-        data-testid="spindle"
-        aria-pressed={hand.spindleOn.value}
-        onClick={press(() => hand.toggleSpindle())}
-      >
-        {appText.spindleButton(hand.spindleOn.value)}
-      </button>
-      <IrrigationButton hand={hand} onDone={() => scene.canvas.focus({ preventScroll: true })} />
-      <button
-        type="button"
-        class="hand-button"
-        data-testid="pause"
-        aria-pressed={hand.paused.value}
-        onClick={press(() => hand.togglePause())}
-      >
-        {appText.pauseButton(hand.paused.value)}
-      </button>
+      <DriveButtons hand={hand} onDone={toPicture} />
+      <PauseButton hand={hand} onDone={toPicture} />
     </>
   );
 }

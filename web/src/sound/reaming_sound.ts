@@ -8,8 +8,13 @@ export interface SoundInput {
   densityGCc: number;
   /** Of what is engaged, 0 to 1. */
   corticalShare: number;
-  /** That the hand feels, g; null where it is not known: then the value published for the bone. */
+  /** Reversed negative, rad/s; 0 where the drive does not say it. */
+  spindleSpeedRadS: number;
+  stalled: boolean;
+  /** Strength that the hand feels, g rms; null where it is not known: then the value published for the bone. */
   vibrationG: number | null;
+  /** Whether the vibration itself is heard, so that none has to be made up. */
+  tracked: boolean;
 }
 
 /** For the synthesizer; gains 0 to 1. */
@@ -19,9 +24,14 @@ export interface SoundParameters {
   /** Middle of the band of the cutting noise. */
   cuttingHz: number;
   cuttingGain: number;
+  /** Of the vibration as it is sent, a g. */
+  trackGain: number;
 }
 
-export const silence: SoundParameters = { motorHz: 0, motorGain: 0, cuttingHz: 0, cuttingGain: 0 };
+/** To the audio thread: parameters, or the vibration of the next ticks, g. */
+export type SoundMessage = SoundParameters | { vibrationG: Float32Array };
+
+export const silence: SoundParameters = { motorHz: 0, motorGain: 0, cuttingHz: 0, cuttingGain: 0, trackGain: 0 };
 
 /** g rms of a reamer in bone: Faieghi's cadaver experiments, as docs/researcher.md has them. */
 export const corticalGRms = 0.3;
@@ -31,6 +41,9 @@ const measuredAtN = 52;
 
 // How a drill sounds is judged by ear, not measured: its hum, how much a push slows it, and the bands of the bone.
 const motorHz = 190;
+const fullSpeedRadS = (156 * 2 * Math.PI) / 60;
+/** A motor that cannot turn still hums. */
+const stalledHz = 60;
 const motorSlowsBy = 0.18;
 const slowestAtN = 104;
 const motorGain = 0.16;
@@ -42,18 +55,30 @@ const cuttingGainMost = 0.75;
 const fullFeedMmS = 0.05;
 const rubbingShare = 0.45;
 
-/** The sound of a spinning reamer: a hum that a push slows, and a noise that is brighter in harder bone. */
+/**
+ * The sound of a spinning reamer: a hum as fast as the spindle turns, and the vibration that the hand feels. Where that
+ * is not sent, a noise that is brighter in harder bone stands for it.
+ */
 export function soundOf(input: SoundInput): SoundParameters {
-  if (!input.spindleOn) return silence;
+  const turning = Math.abs(input.spindleSpeedRadS) > 0;
+  if (!input.spindleOn && !turning) return silence;
   const push = share(input.thrustN / slowestAtN);
   const cortical = share(input.corticalShare);
   const engaged = input.densityGCc > 0 && input.thrustN > 0;
   return {
-    motorHz: motorHz * (1 - motorSlowsBy * push),
+    motorHz: motorPitchHz(input, push),
     motorGain: motorGain * (1 + 0.5 * push),
     cuttingHz: cancellousHz * (corticalHz / cancellousHz) ** cortical,
-    cuttingGain: engaged ? Math.min(strengthG(input, cortical) * gainPerG, cuttingGainMost) : 0,
+    cuttingGain: engaged && !input.tracked ? Math.min(strengthG(input, cortical) * gainPerG, cuttingGainMost) : 0,
+    trackGain: input.tracked ? gainPerG : 0,
   };
+}
+
+function motorPitchHz({ spindleSpeedRadS, stalled }: SoundInput, push: number): number {
+  if (stalled) return stalledHz;
+  const speed = Math.abs(spindleSpeedRadS) / fullSpeedRadS;
+  if (!(speed > 0)) return motorHz * (1 - motorSlowsBy * push);
+  return Math.min(Math.max(motorHz * speed, stalledHz), 4 * motorHz);
 }
 
 /** How strongly it shakes, g rms. */

@@ -1,4 +1,4 @@
-import type { SoundParameters } from './reaming_sound';
+import type { SoundMessage, SoundParameters } from './reaming_sound';
 import workletUrl from './sound_worklet?worker&url';
 
 /** Sound from the loudspeaker, made on the browser's audio thread. */
@@ -24,7 +24,15 @@ export class SoundOutput {
   }
 
   setParameters(parameters: SoundParameters): void {
-    this.node.port.postMessage(parameters);
+    this.post(parameters);
+  }
+
+  addTrack(vibrationG: Float32Array): void {
+    this.post({ vibrationG });
+  }
+
+  private post(message: SoundMessage): void {
+    this.node.port.postMessage(message);
   }
 
   close(): void {

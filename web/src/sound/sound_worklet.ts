@@ -1,5 +1,5 @@
 /** The browser's audio thread: makes the sound from the parameters that the page sends. */
-import type { SoundParameters } from './reaming_sound';
+import type { SoundMessage } from './reaming_sound';
 import { Synthesizer } from './synthesizer';
 
 // The names of an AudioWorkletGlobalScope are in no library of TypeScript's.
@@ -14,7 +14,10 @@ class ReamingProcessor extends AudioWorkletProcessor {
 
   constructor() {
     super();
-    this.port.onmessage = (event: MessageEvent<SoundParameters>) => this.synthesizer.setParameters(event.data);
+    this.port.onmessage = ({ data }: MessageEvent<SoundMessage>) => {
+      if ('vibrationG' in data) this.synthesizer.addTrack(data.vibrationG);
+      else this.synthesizer.setParameters(data);
+    };
   }
 
   process(_inputs: unknown, outputs: Float32Array[][]): boolean {

@@ -1,4 +1,5 @@
 import { silence, type SoundParameters } from './reaming_sound';
+import { TrackPlayer } from './track_player';
 
 /** Without an update for so long it is silent: the last parameters are out of date. */
 export const silentAfterS = 0.3;
@@ -6,6 +7,8 @@ export const silentAfterS = 0.3;
 const smoothS = 0.025;
 /** The band of the cutting noise is this part of its middle wide. */
 const bandShare = 0.9;
+/** Vibration comes once a tick, Hz. */
+export const trackHz = 1000;
 /** Teeth of the reamer pass the bone so many times a turn of the hum, which makes the noise rough. */
 const roughHzShare = 0.25;
 
@@ -20,7 +23,16 @@ export class Synthesizer {
   private low = 0;
   private band = 0;
 
-  constructor(private readonly sampleRate: number) {}
+  private readonly track: TrackPlayer;
+
+  constructor(private readonly sampleRate: number) {
+    this.track = new TrackPlayer(trackHz, sampleRate);
+  }
+
+  /** Vibration of the next ticks, g. */
+  addTrack(vibrationG: Float32Array): void {
+    this.track.add(vibrationG);
+  }
 
   /** What is heard from here on, as long as updates follow. */
   setParameters(parameters: SoundParameters): void {
@@ -31,11 +43,12 @@ export class Synthesizer {
   /** Fills the next samples, each within -1 and 1. */
   render(out: Float32Array): void {
     const stepS = 1 / this.sampleRate;
-    const goal = this.sinceUpdateS > silentAfterS ? { ...this.target, motorGain: 0, cuttingGain: 0 } : this.target;
+    const goal =
+      this.sinceUpdateS > silentAfterS ? { ...this.target, motorGain: 0, cuttingGain: 0, trackGain: 0 } : this.target;
     const towards = 1 - Math.exp(-stepS / smoothS);
     for (let i = 0; i < out.length; ++i) {
       this.approach(goal, towards);
-      out[i] = Math.tanh(this.motor(stepS) + this.cutting(stepS));
+      out[i] = Math.tanh(this.motor(stepS) + this.cutting(stepS) + this.now.trackGain * this.track.next());
     }
     this.sinceUpdateS += out.length * stepS;
   }
@@ -43,11 +56,12 @@ export class Synthesizer {
   private approach(goal: SoundParameters, share: number): void {
     const { now } = this;
     // From silence it begins at its pitch: only what is heard glides.
-    const pitch = now.motorGain + now.cuttingGain < 1e-4 ? 1 : share;
+    const pitch = now.motorGain + now.cuttingGain + now.trackGain < 1e-4 ? 1 : share;
     now.motorHz += (goal.motorHz - now.motorHz) * (goal.motorHz > 0 ? pitch : 0);
     now.cuttingHz += (goal.cuttingHz - now.cuttingHz) * (goal.cuttingHz > 0 ? pitch : 0);
     now.motorGain += (goal.motorGain - now.motorGain) * share;
     now.cuttingGain += (goal.cuttingGain - now.cuttingGain) * share;
+    now.trackGain += (goal.trackGain - now.trackGain) * share;
   }
 
   /** A hum with overtones. */

@@ -1,13 +1,15 @@
 import { effect, signal } from '@preact/signals';
 
 import { liveText } from '../text/live_text';
-import { type SoundInput, silence, type SoundParameters, soundOf } from '../sound/reaming_sound';
-import type { PracticeStore } from './practice_store';
+import { silence, type SoundParameters, soundOf } from '../sound/reaming_sound';
+import type { Telemetry } from '../wire/telemetry';
 import type { Store } from './store';
 
 /** Where sound goes. */
 export interface SoundSink {
   setParameters(parameters: SoundParameters): void;
+  /** Vibration of the next ticks, g. */
+  addTrack(vibrationG: Float32Array): void;
   close(): void;
 }
 
@@ -19,16 +21,18 @@ export class Sound {
   /** The newest parameters; for tests and the readout. */
   readonly parameters = signal<SoundParameters>(silence);
   private sink: SoundSink | null = null;
+  /** The batch whose vibration was sent last: each is heard once. */
+  private heard: Telemetry | null = null;
 
   constructor(
     private readonly store: Store,
-    private readonly practice: PracticeStore,
     private readonly open: () => Promise<SoundSink>,
   ) {
     effect(() => {
       const parameters = this.now();
       this.parameters.value = parameters;
       this.sink?.setParameters(parameters);
+      if (parameters.trackGain > 0) this.sendTrack();
     });
   }
 
@@ -53,19 +57,22 @@ export class Sound {
   }
 
   private now(): SoundParameters {
-    const { store, practice } = this;
+    const { store } = this;
     // Every batch updates the sound, also one equal to the last: when telemetry stops, so does the sound.
     const t = store.telemetry.value;
     if (!this.on.value || t === null || !store.upToDate.value) return silence;
     const moves = store.playback.value === null ? store.sessionState.value === 'running' : store.playback.value.playing;
     if (!moves) return silence;
-    const steered = practice.steering.value ? practice.feedback.peek() : null;
-    const input: SoundInput = { ...t, thrustN: t.thrustN.at(-1) ?? 0, vibrationG: rootMeanSquare(t.vibrationG) };
-    // The hand's is of one moment and of either sign: it may only add.
-    const parameters = soundOf(input);
-    if (steered === null) return parameters;
-    const felt = soundOf({ ...input, vibrationG: steered.vibrationG });
-    return { ...parameters, cuttingGain: Math.max(parameters.cuttingGain, felt.cuttingGain) };
+    const { vibrationG } = t;
+    const tracked = vibrationG.length > 0 && t.tickStride === 1 && (store.playback.value?.speed ?? 1) === 1;
+    return soundOf({ ...t, thrustN: t.thrustN.at(-1) ?? 0, vibrationG: rootMeanSquare(vibrationG), tracked });
+  }
+
+  private sendTrack(): void {
+    const t = this.store.telemetry.peek();
+    if (t === null || t === this.heard) return;
+    this.heard = t;
+    this.sink?.addTrack(t.vibrationG);
   }
 }
 

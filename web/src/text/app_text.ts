@@ -186,6 +186,7 @@ export const appText = {
   spindle: 'Spindle',
   stalled: 'stalled',
   rpm: 'rpm',
+  rpmReversed: 'rpm, reversed',
   surfaceTemperature: 'Bone temperature',
   surfaceWarm: 'too warm',
   surfaceHot: 'dies',

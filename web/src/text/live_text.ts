@@ -86,7 +86,7 @@ export const liveText = {
   forceScaleHint: 'Simulated newtons for each newton at the hand',
   soundOn: 'Sound on',
   soundOff: 'Sound off',
-  soundHint: 'The sound of the reamer, made from spindle, thrust and bone',
+  soundHint: 'The sound of the reamer: its drive, and the vibration that the hand feels',
   noSound: 'This browser gives no sound.',
   noSoundShort: 'No sound',
   slices: 'CT slices',

@@ -11,7 +11,10 @@ const seated: SoundInput = {
   feedRateMmS: 0.2,
   densityGCc: 1.4,
   corticalShare: 1,
+  spindleSpeedRadS: 0,
+  stalled: false,
   vibrationG: null,
+  tracked: false,
 };
 
 function rendered(synthesizer: Synthesizer, seconds: number): Float32Array {
@@ -65,8 +68,17 @@ describe('what the reamer sounds like', () => {
     expect(soundOf({ ...seated, feedRateMmS: 0 }).cuttingGain).toBeLessThan(soundOf(seated).cuttingGain);
   });
 
+  it('hums as fast as the spindle turns, either way around', () => {
+    const at = (rpm: number) => soundOf({ ...seated, spindleSpeedRadS: (rpm * 2 * Math.PI) / 60 }).motorHz;
+    expect(at(156)).toBeCloseTo(190, 6);
+    expect(at(-78)).toBeCloseTo(95, 6);
+    expect(soundOf({ ...seated, spindleSpeedRadS: 0, stalled: true }).motorHz).toBeLessThan(at(78));
+    const coasting = soundOf({ ...seated, spindleOn: false, spindleSpeedRadS: 8 });
+    expect(coasting.motorGain).toBeGreaterThan(0);
+  });
+
   it('goes by the vibration where that is told', () => {
-    const weak = soundOf({ ...seated, vibrationG: -0.05 });
+    const weak = soundOf({ ...seated, vibrationG: 0.05 });
     const strong = soundOf({ ...seated, vibrationG: 0.4 });
     expect(strong.cuttingGain / weak.cuttingGain).toBeCloseTo(8, 6);
   });

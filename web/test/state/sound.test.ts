@@ -1,7 +1,6 @@
 import { describe, expect, it } from 'vitest';
 
 import { silence, type SoundParameters } from '../../src/sound/reaming_sound';
-import { PracticeStore } from '../../src/state/practice_store';
 import { Sound } from '../../src/state/sound';
 import { Store } from '../../src/state/store';
 import { hello, telemetry } from '../wire/fake_messages';
@@ -22,13 +21,15 @@ function place() {
   store.pictureComplete.value = true;
   store.sessionState.value = 'running';
   const sent: SoundParameters[] = [];
+  const tracks: Float32Array[] = [];
   let closed = 0;
   const sink = {
     setParameters: (parameters: SoundParameters) => void sent.push(parameters),
+    addTrack: (vibrationG: Float32Array) => void tracks.push(vibrationG),
     close: () => void ++closed,
   };
-  const sound = new Sound(store, new PracticeStore(store), () => Promise.resolve(sink));
-  return { store, sound, sent, closed: () => closed };
+  const sound = new Sound(store, () => Promise.resolve(sink));
+  return { store, sound, sent, tracks, closed: () => closed };
 }
 
 describe('the sound of the reamer', () => {
@@ -54,19 +55,29 @@ describe('the sound of the reamer', () => {
     expect(sent.filter(({ cuttingGain }) => cuttingGain > 0)).toHaveLength(5);
   });
 
-  it('is as strong as the reamer shakes', async () => {
-    const { store, sound } = place();
+  it('is the vibration that is sent, each batch once', async () => {
+    const { store, sound, sent, tracks } = place();
     await sound.toggle();
-    const gain = (...vibrationG: number[]) => {
+    const send = (tick: number, tickStride: number, ...vibrationG: number[]) => {
       const message = telemetry({
-        ...{ tick: 1, spindleOn: true, densityGCc: 1.2, corticalShare: 1, feedRateMmS: 0.1 },
+        ...{ tick, tickStride, spindleOn: true, densityGCc: 1.2, corticalShare: 1, feedRateMmS: 0.1 },
         ...{ thrustN: Float32Array.of(52), vibrationG: Float32Array.from(vibrationG) },
       });
       if (message.kind === 'telemetry') store.telemetry.value = message.telemetry;
-      return sound.parameters.value.cuttingGain;
     };
-    expect(gain(0.1, -0.1)).toBeLessThan(gain(0.3, -0.3));
-    expect(gain(0.3, -0.3)).toBeCloseTo(gain(), 6);
+    send(2, 1, 0.25, -0.5);
+    expect(sent.at(-1)).toMatchObject({ cuttingGain: 0 });
+    expect(sent.at(-1)?.trackGain).toBeGreaterThan(0);
+    store.playback.value = { positionTicks: 1, speed: 1, playing: true, jump: 0 };
+    send(3, 1, 1);
+    expect(tracks.map((track) => [...track])).toEqual([[0.25, -0.5], [1]]);
+    // At another speed it cannot be played as it is.
+    store.playback.value = { positionTicks: 1, speed: 2, playing: true, jump: 0 };
+    send(4, 1, 1);
+    send(5, 10, 1);
+    expect(tracks).toHaveLength(2);
+    expect(sent.at(-1)).toMatchObject({ trackGain: 0 });
+    expect(sent.at(-1)?.cuttingGain).toBeGreaterThan(0);
   });
 
   it('is silent as soon as what is shown is not of this moment', async () => {
@@ -93,7 +104,7 @@ describe('the sound of the reamer', () => {
 
   it('says so where there is none to be had', async () => {
     const store = new Store();
-    const sound = new Sound(store, new PracticeStore(store), () => Promise.reject(new Error('no device')));
+    const sound = new Sound(store, () => Promise.reject(new Error('no device')));
     await sound.toggle();
     expect(sound.on.value).toBe(false);
     expect(sound.problem.value).toContain('no sound');

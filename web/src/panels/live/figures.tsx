@@ -81,8 +81,8 @@ function Spindle({ telemetry: t }: { telemetry: Telemetry | null }) {
     );
   }
   return (
-    <Figure name={appText.spindle} unit={appText.rpm} id="spindle-speed">
-      {fixed((t.spindleSpeedRadS * 30) / Math.PI, 0)}
+    <Figure name={appText.spindle} unit={t.spindleSpeedRadS < 0 ? appText.rpmReversed : appText.rpm} id="spindle-speed">
+      {fixed((Math.abs(t.spindleSpeedRadS) * 30) / Math.PI, 0)}
     </Figure>
   );
 }

@@ -11,20 +11,7 @@ export function PracticeBar({ practice, toPicture }: { practice: PracticeStore; 
   return (
     <section class="practice" aria-label={appText.practice} data-testid="practice-bar">
       <div class="practice-buttons">
-        <button
-          type="button"
-          class={hand.spindleOn.value ? 'hand-button spindle-on' : 'hand-button'}
-          data-testid="spindle"
-          aria-pressed={hand.spindleOn.value}
-          onClick={(event) => {
-            hand.takeHold();
-            hand.toggleSpindle();
-            afterClick(event, toPicture);
-          }}
-        >
-          {appText.spindleButton(hand.spindleOn.value)}
-        </button>
-        <IrrigationButton hand={hand} onDone={(event) => afterClick(event, toPicture)} />
+        <DriveButtons hand={hand} onDone={(event) => afterClick(event, toPicture)} />
         <HoldButton
           class="hand-button"
           id="push"
@@ -47,18 +34,7 @@ export function PracticeBar({ practice, toPicture }: { practice: PracticeStore; 
         >
           {appText.withdrawButton}
         </HoldButton>
-        <button
-          type="button"
-          class="hand-button"
-          data-testid="pause"
-          aria-pressed={hand.paused.value}
-          onClick={(event) => {
-            hand.togglePause();
-            afterClick(event, toPicture);
-          }}
-        >
-          {appText.pauseButton(hand.paused.value)}
-        </button>
+        <PauseButton hand={hand} onDone={(event) => afterClick(event, toPicture)} />
         <p class="soft off-plan" data-testid="off-plan">
           {appText.offPlan(fixed(practice.offPlanMm.value, 1))}
         </p>
@@ -70,22 +46,64 @@ export function PracticeBar({ practice, toPicture }: { practice: PracticeStore; 
   );
 }
 
-export function IrrigationButton({ hand, onDone }: { hand: Hand; onDone: (event: MouseEvent) => void }) {
+interface HandButtonParts {
+  hand: Hand;
+  /** After a click. */
+  onDone: (event: MouseEvent) => void;
+}
+
+/** A switch of the hand's: lit while it is on. */
+function HandButton({
+  id,
+  on,
+  label,
+  onPress,
+}: {
+  id: string;
+  on: boolean;
+  label: string;
+  onPress: (event: MouseEvent) => void;
+}) {
   return (
-    <button
-      type="button"
-      class="hand-button"
-      data-testid="irrigation"
-      aria-pressed={hand.irrigating.value}
-      onClick={(event) => {
-        hand.takeHold();
-        hand.toggleIrrigation();
-        onDone(event);
-      }}
-    >
-      {appText.irrigationButton}
+    <button type="button" class="hand-button" data-testid={id} aria-pressed={on} onClick={onPress}>
+      {label}
     </button>
   );
+}
+
+/** Spindle and irrigation; whoever presses one takes hold of the reamer. */
+export function DriveButtons({ hand, onDone }: HandButtonParts) {
+  const press = (action: () => void) => (event: MouseEvent) => {
+    hand.takeHold();
+    action();
+    onDone(event);
+  };
+  const spindleOn = hand.spindleOn.value;
+  return (
+    <>
+      <HandButton
+        id="spindle"
+        on={spindleOn}
+        label={appText.spindleButton(spindleOn)}
+        onPress={press(() => hand.toggleSpindle())}
+      />
+      <HandButton
+        id="irrigation"
+        on={hand.irrigating.value}
+        label={appText.irrigationButton}
+        onPress={press(() => hand.toggleIrrigation())}
+      />
+    </>
+  );
+}
+
+export function PauseButton({ hand, onDone }: HandButtonParts) {
+  const paused = hand.paused.value;
+  const press = (event: MouseEvent) => {
+    hand.togglePause();
+    onDone(event);
+  };
+  return <HandButton id="pause" on={paused} label={appText.pauseButton(paused)} onPress={press} />;
 }
 
 /** After a click with the mouse the keys go to the picture again, where space pushes; after one with a key they stay. */
