@@ -62,6 +62,11 @@ force::EngagedBone engaged_bone(const Model& model, const collide::ContactSums& 
   return bone;
 }
 
+/// Takes the axis out of what resists.
+void free_along_axis(force::Mat6& m) {
+  for (size_t i = 0; i < 6; ++i) m[6 * 2 + i] = m[6 * i + 2] = 0.0;
+}
+
 /// The 6x6 resistance of DESIGN 3 from the contact sums: scaled so that full axial contact has the feed
 /// model's resistance, whatever the engaged area. A standing spindle (or thrust too small to cut) makes
 /// cutting contact block like guiding contact.
@@ -80,6 +85,15 @@ force::Resistance contact_resistance(const Model& model, const collide::ContactS
   const double squared = into.squaredNorm();
   if (squared > 0.0) resistance.outward = -into / std::sqrt(squared);
   return resistance;
+}
+
+/// Bone pushes and never holds. The matrix knows no sides: normals that differ would make it hold a tool that
+/// the hand draws back along its axis out of the pocket that it cut. Bone there has the tool's own shape, so
+/// the way back leads away from every point of it. Elsewhere an edge of the tool may have bone behind it.
+void let_go(const collide::ContactSums& sums, force::Resistance& resistance) {
+  if (resistance.outward.z() > 0.0 || sums.guiding.first[2] < 0) return;
+  free_along_axis(resistance.cutting);
+  free_along_axis(resistance.guiding);
 }
 
 /// Advance against contact: no point goes farther than one look for contact allows, so that nothing is
@@ -153,6 +167,7 @@ struct Contact {
     // At a given thrust the feed per revolution stays.
     const double slowed = cuts ? model.settings.feed.spindle_rad_s / state.spindle.speed_rad_s() : 1.0;
     force::Resistance resistance = contact_resistance(model, sums, cutting.resistance_n_s_mm * slowed, cuts);
+    if (delta[2] < 0.0 && in_own_pocket()) let_go(sums, resistance);
     const force::Resistance without_friction = resistance;
     force::Sliding slid = sliding(resistance.outward);
     if (cuts && cutting.tangential_ratio > 0.0) slid.friction = cutting.tangential_ratio;
@@ -204,9 +219,20 @@ struct Contact {
     const Vec3 velocity_mm_s = Vec3(t[0], t[1], t[2]) + Vec3(t[3], t[4], t[5]).cross(s.point_mm);
     s.along_speed_mm_s = (velocity_mm_s - outward * outward.dot(velocity_mm_s)).norm();
     s.turn_speed_rad_s = std::abs(state.spindle.speed_rad_s()) + std::abs(t[5]);
-    // Of a disc with the engaged area.
-    s.mean_radius_mm = 2.0 / 3.0 * std::sqrt(bone.area_mm2 / pi);
+    s.mean_radius_mm = mean_radius_mm(s.point_mm);
     return s;
+  }
+
+  bool in_own_pocket() const {
+    return (state.world_from_tool.translation_mm - state.last_cut_mm).norm() < model.profile.max_radius_mm;
+  }
+
+  /// Of the engaged edge, whose weight is area over radius; of the place where only guiding surface touches.
+  double mean_radius_mm(const Vec3& point_mm) const {
+    int64_t edge = 0;
+    for (const int64_t weight : sums.class_weight) edge += weight;
+    if (edge == 0) return std::hypot(point_mm.x(), point_mm.y());
+    return collide::edge_radius_mm * static_cast<double>(sums.cutting.area) / static_cast<double>(edge);
   }
 };
 
@@ -273,6 +299,7 @@ ToolLoad press(const Model& model, State& state, const collide::ContactSums& sum
   const double most_mm = std::max(0.0, max_travel_mm(model, state, stretch_mm + travelled_mm) - travelled_mm);
   if (travel_mm > most_mm)
     for (size_t i = 0; i < 3; ++i) motion[i] *= most_mm / travel_mm;
+  if (cuts) state.last_cut_mm = before.translation_mm;
   state.world_from_tool = moved_within_a_voxel(model, before, motion);
   state.free_path_mm = -1.0;
   for (size_t i = 0; i < 6; ++i) state.tool_twist[i] = motion[i] / tick_s;

@@ -57,6 +57,7 @@ struct State {
   force::Vec6 tool_twist{};          ///< of the last tick, tool frame: mm/s, rad/s
   Vec3 tick_from_mm = Vec3::Zero();  ///< where the tool was when the tick began, world frame
   double tool_speed_mm_s = 0.0;      ///< of its origin, of the last tick
+  Vec3 last_cut_mm = Vec3::Constant(1e9);  ///< where the tool was when it cut last, world frame
   bool slips = false;                ///< free of the bone, and not yet where the hand is
   double thrust_n = 0.0;             ///< simulated, of the last tick
   double normal_force_n = 0.0;       ///< simulated, of the last tick, that presses tool and bone together

@@ -5,10 +5,10 @@
 
 #include "bench/bench.hpp"
 #include "bench/heat_rows.hpp"
-#include "core/clock.hpp"
 #include "score/depth_gauge.hpp"
 #include "sim/step.hpp"
 #include "support/reaming_setup.hpp"
+#include "support/way_out.hpp"
 
 namespace ream::bench {
 namespace {
@@ -21,22 +21,8 @@ struct Gauged {
   double worst_mm = 0.0;                 ///< gauge from truth, at any look
   double gauge_mm = 0.0, true_mm = 0.0;  ///< at the end
   uint32_t cutting_ticks = 0, before_contact_ticks = 0;
-  uint32_t withdrawn_tick = 0, last_engaged_tick = 0;
-  int64_t removed_on_the_way_out = 0;  ///< 1/255 voxel
+  test::WayOut way_out;
 
-  /// From when the robot draws back; empty before.
-  double seconds_to_be_free() const {
-    return withdrawn_tick == 0 || last_engaged_tick < withdrawn_tick
-               ? 0.0
-               : tick_s * (last_engaged_tick - withdrawn_tick);
-  }
-  /// `pull_n`: of the hand along the tool's axis. Touching is over when the robot draws back for good.
-  void follow_way_out(const record::TickReport& r, double pull_n) {
-    if (r.engaged) last_engaged_tick = r.tick;
-    if (withdrawn_tick == 0 && cutting_ticks > 0 && pull_n > 0.1) withdrawn_tick = r.tick;
-    for (const int64_t removed : r.coverage_removed)
-      removed_on_the_way_out += withdrawn_tick > 0 ? removed : 0;
-  }
   double before_contact_percent() const {
     return cutting_ticks > 0 ? 100.0 * before_contact_ticks / cutting_ticks : 0.0;
   }
@@ -61,7 +47,7 @@ Gauged ream(const test::RandomReaming& reaming, double voxel_mm) {
     touched = touched || (report.engaged && truth.touches(report.world_from_tool));
     gauged.cutting_ticks += report.cutting;
     gauged.before_contact_ticks += report.cutting && !touched;
-    gauged.follow_way_out(report, -input.hand_force_n.dot(report.world_from_tool.rotation.col(2)));
+    gauged.way_out.follow(report, input.hand_force_n);
     if (removed && (report.world_from_tool.translation_mm - last_mm).norm() > same_place_mm) {
       truth.cut_at(report.world_from_tool);
       last_mm = report.world_from_tool.translation_mm;
@@ -101,14 +87,14 @@ void add_rows(double voxel_mm, const Options& options, std::vector<Row>& rows) {
                       << free.worst_mm << " mm at worst, " << free.gauge_mm << " of " << free.true_mm
                       << " mm at the end; to the plan " << guided.gauge_mm << " of " << reaming.plan.depth_mm
                       << " mm; cutting before contact " << free.before_contact_percent() << " %; free "
-                      << free.seconds_to_be_free() << " and " << guided.seconds_to_be_free()
+                      << free.way_out.seconds_to_be_free() << " and " << guided.way_out.seconds_to_be_free()
                       << " s after drawing back" << std::endl;
     for (const Gauged& one : {free, guided}) {
       worst.worst_mm = std::max(worst.worst_mm, one.worst_mm);
       early_percent = std::max(early_percent, one.before_contact_percent());
-      held_s = std::max(held_s, one.seconds_to_be_free());
+      held_s = std::max(held_s, one.way_out.seconds_to_be_free());
       lost_mm3 = std::max(
-          lost_mm3, static_cast<double>(one.removed_on_the_way_out) / 255.0 * voxel_mm * voxel_mm * voxel_mm);
+          lost_mm3, static_cast<double>(one.way_out.removed_levels()) / 255.0 * voxel_mm * voxel_mm * voxel_mm);
     }
     planned.worst_mm = std::max(planned.worst_mm, std::abs(guided.gauge_mm - reaming.plan.depth_mm));
   }

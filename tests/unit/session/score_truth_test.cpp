@@ -7,7 +7,9 @@
 #include <cstdlib>
 
 #include "session/live/headless_run.hpp"
+#include "sim/step.hpp"
 #include "support/reaming_setup.hpp"
+#include "support/way_out.hpp"
 
 namespace ream::test {
 namespace {
@@ -93,6 +95,28 @@ unsigned reamings() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, ScoreTruth, testing::Range(0u, reamings()));
+
+/// Bone pushes and never holds: a robot that stands aside and leans draws the reamer out of the pocket that it
+/// made, whatever the shape. Seeds whose reamers once stayed in it for seconds, two of them for ever.
+TEST(Withdrawal, ATiltedReamerIsFreeOfItsPocketWithinHalfASecond) {
+  constexpr double coarse_voxel_mm = 0.6;
+  for (const unsigned seed : {1u, 2u, 3u, 9u}) {
+    const TemporaryFolder folder;
+    session::Simulation simulation(setup_of(random_reaming(seed, coarse_voxel_mm), coarse_voxel_mm, folder));
+    WayOut way_out;
+    device::DeviceInput input;
+    simulation.device->open();
+    while (simulation.device->read(input) == device::DeviceStatus::ok) {
+      record::TickReport report;
+      ASSERT_EQ(sim::step(simulation.model, simulation.state, input, report), sim::StepStatus::ok);
+      simulation.device->write(sim::output_of(report));
+      way_out.follow(report, input.hand_force_n);
+    }
+    simulation.device->close();
+    EXPECT_TRUE(way_out.withdrawn()) << "seed " << seed;
+    EXPECT_LT(way_out.seconds_to_be_free(), 0.5) << "seed " << seed;
+  }
+}
 
 }  // namespace
 }  // namespace ream::test
