@@ -44,10 +44,10 @@ struct DeviceTraits {
   double start_up_ramp_s = 0.0;      ///< over which force rises from nothing after the start
   double vibration_max_n = 0.0;      ///< amplitude that may be added to the contact force
   double effective_mass_kg = 0.0;    ///< admittance devices: virtual mass that the hand moves; else 0
-  double handle_mass_kg = 0.0;       ///< impedance devices: what a hand moves with the handle, apparent; else 0
-  bool energy_guarded = true;        ///< false: stiffer than can be held passive, for scripts only
-  int degrees_of_freedom = 6;        ///< sensed
-  std::string profile = "ideal";     ///< name in device/profiles.hpp
+  double handle_mass_kg = 0.0;    ///< impedance devices: what a hand moves with the handle, apparent; else 0
+  bool energy_guarded = true;     ///< false: stiffer than can be held passive, for scripts only
+  int degrees_of_freedom = 6;     ///< sensed
+  std::string profile = "ideal";  ///< name in device/profiles.hpp
   StaleLimits stale;
   bool simulated = false;  ///< nobody's hand is in it: a loop that stands still harms no one
   /// A device that has been told nothing for so long lets go by itself; infinite: it never does.

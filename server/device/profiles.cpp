@@ -8,8 +8,8 @@
 namespace ream::device {
 namespace {
 
-/// The table as its sources print it: N, N m, N/m, N s/m, m, kg. `mass_kg`: of an admittance device, its virtual
-/// mass; of the others, what a hand shakes with the handle.
+/// The table as its sources print it: N, N m, N/m, N s/m, m, kg. `mass_kg`: of an admittance device, its
+/// virtual mass; of the others, what a hand shakes with the handle.
 struct Published {
   const char* name;
   Causality causality;
@@ -27,6 +27,7 @@ constexpr Causality impedance = Causality::impedance, admittance = Causality::ad
 
 /// What moves with a handle whose maker does not say it. Engineering choices: a parallel arm's and a drill's.
 constexpr double parallel_arm_kg = 0.25, drill_kg = 1.2;
+constexpr double stylus_kg = 0.045;
 
 /// Rows without a note: CHAI3D 3 device table (continuous force, closed loop at 1 kHz). Mass of 3D Systems'
 /// devices: apparent mass at the tip, from the maker's data sheets, not checked.
@@ -38,9 +39,9 @@ constexpr std::array<Published, 19> table{{
     {"sigma.7", impedance, 12.0, 0.2, 4000.0, 30.0, 0.075, 7, by_lever, parallel_arm_kg},
     {"lambda.7", impedance, 12.0, 0.2, 8000.0, 30.0, 0.1125, 7, by_lever, parallel_arm_kg},
     {"falcon", impedance, 8.0, 0.0, 3000.0, 20.0, 0.04, 3, by_lever, parallel_arm_kg},
-    {"touch", impedance, 3.3, 0.0, 400.0, 4.0, 0.075, 6, by_lever, 0.045},
-    {"phantom-omni", impedance, 3.3, 0.0, 700.0, 5.0, 0.10, 6, by_lever, 0.045},
-    {"phantom-desktop", impedance, 7.9, 0.0, 1000.0, 5.0, 0.10, 6, by_lever, 0.045},
+    {"touch", impedance, 3.3, 0.0, 400.0, 4.0, 0.075, 6, by_lever, stylus_kg},
+    {"phantom-omni", impedance, 3.3, 0.0, 700.0, 5.0, 0.10, 6, by_lever, stylus_kg},
+    {"phantom-desktop", impedance, 7.9, 0.0, 1000.0, 5.0, 0.10, 6, by_lever, stylus_kg},
     {"premium-1.5-6dof", impedance, 8.5, 0.188, 800.0, 5.0, 0.12, 6, by_lever, 0.136},
     {"premium-3.0-6dof", impedance, 22.0, 0.188, 1000.0, 5.0, 0.25, 6, by_lever, 0.159},
     // Haply Inverse3: its public documents give neither force nor stiffness. Force as it is cut until one has
@@ -60,7 +61,7 @@ constexpr std::array<Published, 19> table{{
     // force; the virtual mass is what its delay lets feel steady in a hand. Engineering choice.
     {"robot-force-mode", admittance, 14.0 * standard_gravity_m_s2, 40.0, 5000.0, 0.0, 0.40, 6, 300.0, 10.0},
     // No device: far beyond what a hand does, for scripts that study the simulation and not a device.
-    {"ideal", impedance, 1000.0, 100.0, 100000.0, 1.0e6, 10.0, 6, by_lever, drill_kg},
+    {"ideal", impedance, 1000.0, 100.0, 100000.0, 1.0e6, 10.0, 6, by_lever, stylus_kg},
     {"ideal-admittance", admittance, 1000.0, 100.0, 100000.0, 1.0e6, 10.0, 6, by_lever, 1.0},
 }};
 

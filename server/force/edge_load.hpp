@@ -17,7 +17,7 @@ bool is_fitted_density(double density_g_cc) noexcept;
 std::array<uint32_t, 256> edge_resistances(double density_step_g_cc, size_t cartilage_code);
 inline constexpr double edge_resistance_codes_s_mm = 32.0;
 
-/// The key "cutting" of scripts and cases (proto/script.schema.json, $defs/cutting): what of EdgeFeedModel's
+/// The key "cutting" of scripts and cases (proto/script.schema.json): what of EdgeFeedModel's
 /// coefficients it says. Consumes the reader.
 CuttingCoefficients cutting_from_json(JsonReader reader);
 nlohmann::json to_json(const CuttingCoefficients& cutting);

@@ -153,6 +153,11 @@ struct Pressed {
   }
 };
 
+/// Of the tool's origin, grid frame: bone may have moved since.
+Vec3 place_on_bone_mm(const State& state) {
+  return state.world_from_grid.inverse().point(state.world_from_tool.translation_mm);
+}
+
 /// A tool on bone in one tick, before it moves.
 struct Contact {
   const Model& model;
@@ -224,14 +229,14 @@ struct Contact {
   }
 
   bool in_own_pocket() const {
-    return (state.world_from_tool.translation_mm - state.last_cut_mm).norm() < model.profile.max_radius_mm;
+    return (place_on_bone_mm(state) - state.last_cut_mm).norm() < model.profile.max_radius_mm;
   }
 
   /// Of the engaged edge, whose weight is area over radius; of the place where only guiding surface touches.
   double mean_radius_mm(const Vec3& point_mm) const {
     int64_t edge = 0;
     for (const int64_t weight : sums.class_weight) edge += weight;
-    if (edge == 0) return std::hypot(point_mm.x(), point_mm.y());
+    if (edge == 0) return std::sqrt(point_mm.x() * point_mm.x() + point_mm.y() * point_mm.y());
     return collide::edge_radius_mm * static_cast<double>(sums.cutting.area) / static_cast<double>(edge);
   }
 };
@@ -299,7 +304,7 @@ ToolLoad press(const Model& model, State& state, const collide::ContactSums& sum
   const double most_mm = std::max(0.0, max_travel_mm(model, state, stretch_mm + travelled_mm) - travelled_mm);
   if (travel_mm > most_mm)
     for (size_t i = 0; i < 3; ++i) motion[i] *= most_mm / travel_mm;
-  if (cuts) state.last_cut_mm = before.translation_mm;
+  if (cuts) state.last_cut_mm = place_on_bone_mm(state);
   state.world_from_tool = moved_within_a_voxel(model, before, motion);
   state.free_path_mm = -1.0;
   for (size_t i = 0; i < 6; ++i) state.tool_twist[i] = motion[i] / tick_s;

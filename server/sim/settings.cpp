@@ -6,8 +6,8 @@
 #include <type_traits>
 
 #include "core/error.hpp"
-#include "core/units.hpp"
 #include "core/json_reader.hpp"
+#include "core/units.hpp"
 
 namespace ream::sim {
 namespace {
@@ -214,6 +214,7 @@ void check(const Settings& s, const std::string& place) {
     if (!(value > 0.0)) throw Error(ErrorKind::invalid_input, place + ": " + key + " must be above 0");
   };
   above_zero("feed.spindle_rad_s", s.feed.spindle_rad_s);
+  above_zero("feed.cutting.edge_reference_mm", s.feed.cutting.edge_reference_mm);
   if (!(s.vibration.vibration_max_n >= 0.0))
     throw Error(ErrorKind::invalid_input, place + ": vibration.vibration_max_n must not be negative");
   above_zero("heat.conductivity_w_m_k", s.heat.conductivity_w_m_k);

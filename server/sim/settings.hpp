@@ -25,8 +25,9 @@ RemovalLaw removal_law_from_text(const std::string& text);
 
 /// What this build computes. Raised whenever the same input gives other bits. Recordings and scores name the
 /// one that they were made with; those from before it was written are of revision 1. Since 2 contact begins
-/// where the surfaces meet; since 3 the spindle is a drive with its own speed.
-inline constexpr int physics_revision = 3;
+/// where the surfaces meet; since 3 the spindle is a drive with its own speed; since 4 bone lets a reamer go
+/// that is drawn back, and friction goes by the radius of the engaged edge.
+inline constexpr int physics_revision = 4;
 
 /// How a session is to be simulated; everything that the same input needs to give the same bits.
 struct Settings {

@@ -53,14 +53,14 @@ struct State {
   /// Whatever way the tool moves, as far as this no point of it meets bone (mm). 0: it touches nothing where
   /// it stands; negative: nobody has looked there yet.
   double free_path_mm = -1.0;
-  size_t nearest_block = 0;          ///< of the shell to bone, when that was last looked for
-  force::Vec6 tool_twist{};          ///< of the last tick, tool frame: mm/s, rad/s
-  Vec3 tick_from_mm = Vec3::Zero();  ///< where the tool was when the tick began, world frame
-  double tool_speed_mm_s = 0.0;      ///< of its origin, of the last tick
-  Vec3 last_cut_mm = Vec3::Constant(1e9);  ///< where the tool was when it cut last, world frame
-  bool slips = false;                ///< free of the bone, and not yet where the hand is
-  double thrust_n = 0.0;             ///< simulated, of the last tick
-  double normal_force_n = 0.0;       ///< simulated, of the last tick, that presses tool and bone together
+  size_t nearest_block = 0;                ///< of the shell to bone, when that was last looked for
+  force::Vec6 tool_twist{};                ///< of the last tick, tool frame: mm/s, rad/s
+  Vec3 tick_from_mm = Vec3::Zero();        ///< where the tool was when the tick began, world frame
+  double tool_speed_mm_s = 0.0;            ///< of its origin, of the last tick
+  Vec3 last_cut_mm = Vec3::Constant(1e9);  ///< where the tool was when it cut last, grid frame
+  bool slips = false;                      ///< free of the bone, and not yet where the hand is
+  double thrust_n = 0.0;                   ///< simulated, of the last tick
+  double normal_force_n = 0.0;  ///< simulated, of the last tick, that presses tool and bone together
   /// Load of the cutting edge along its normal in the last tick, N per unit of the contact sums' weight, of
   /// lips that cut or rub.
   double edge_load_n = 0.0;

@@ -93,8 +93,8 @@ void add_rows(double voxel_mm, const Options& options, std::vector<Row>& rows) {
       worst.worst_mm = std::max(worst.worst_mm, one.worst_mm);
       early_percent = std::max(early_percent, one.before_contact_percent());
       held_s = std::max(held_s, one.way_out.seconds_to_be_free());
-      lost_mm3 = std::max(
-          lost_mm3, static_cast<double>(one.way_out.removed_levels()) / 255.0 * voxel_mm * voxel_mm * voxel_mm);
+      lost_mm3 = std::max(lost_mm3, static_cast<double>(one.way_out.removed_levels()) / 255.0 * voxel_mm *
+                                        voxel_mm * voxel_mm);
     }
     planned.worst_mm = std::max(planned.worst_mm, std::abs(guided.gauge_mm - reaming.plan.depth_mm));
   }

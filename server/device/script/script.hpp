@@ -16,7 +16,7 @@ namespace ream::device {
 struct ScriptVibration {
   std::string source = "synthesized";                               ///< synthesized, recording or off
   std::filesystem::path cortical_file, cancellous_file, idle_file;  ///< WAV or CSV, for recording
-  double rate_hz = 0.0;   ///< of CSV files without times; 0: not said
+  double rate_hz = 0.0;           ///< of CSV files without times; 0: not said
   std::optional<double> n_per_g;  ///< hand newtons per g; empty: the device's handle shakes as the drill does
 
   /// Files as they are found from `folder`, where the script lies.
@@ -98,8 +98,8 @@ struct Script {
   /// usual.
   std::string device_profile = "ideal";
   double spindle_rpm = 156.0;
-  std::string feed_model = "edge";  ///< one of force::feed_models()
-  double specimen_factor = 1.0;     ///< feed of this specimen over the feed law's
+  std::string feed_model = "edge";                    ///< one of force::feed_models()
+  double specimen_factor = 1.0;                       ///< feed of this specimen over the feed law's
   std::optional<force::CuttingCoefficients> cutting;  ///< empty: the case's
   /// Empty: the spindle turns as it is asked to, whatever holds it.
   std::optional<force::SpindleSettings> drive = force::SpindleSettings{};

@@ -25,7 +25,6 @@ double noise(uint64_t seed, uint64_t counter) {
   return static_cast<double>(word >> 11) * 0x1p-52 - 1.0;
 }
 
-
 size_t ticks_of(double time_s, size_t max_ticks) {
   return std::clamp(static_cast<size_t>(time_s / tick_s + 0.5), size_t{1}, max_ticks);
 }

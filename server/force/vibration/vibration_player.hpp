@@ -41,11 +41,12 @@ class VibrationMix {
 };
 
 /// How fast tracks run, over how they were made: chips follow each other as fast as the lips move, so the
-/// spectrum's corner moves with the spindle. Above the experiments' speed it has left what can be felt.
+/// spectrum moves with the spindle. Nothing is known of the experiments above 500 Hz, so a track that runs
+/// slower ends lower, and above the experiments' speed none runs faster.
 double track_speed(double spindle_speed_rad_s) noexcept;
 
-/// The acceleration of the reamer, tick after tick. Each seed starts at places of its own in the tracks; without
-/// tracks it is still. Nothing that decides depends on it. No allocation, no lock, no exception.
+/// The acceleration of the reamer, tick after tick. Each seed starts at places of its own in the tracks;
+/// without tracks it is still. Nothing that decides depends on it. No allocation, no lock, no exception.
 class VibrationPlayer {
  public:
   VibrationPlayer() = default;

@@ -19,8 +19,8 @@ namespace ream::force {
 namespace {
 
 /// Lips that pass bone at a mean radius break a chip a correlation length l: the spectrum rises up to their
-/// speed over l. Mean radius of the thesis' reamer of 36.5 mm, mm; l as bone is built (0.2 mm cortical, 0.5 mm
-/// between trabeculae), twice as long in cartilage: engineering choices, mm.
+/// speed over l. Mean radius of the thesis' reamer of 36.5 mm, mm; l as bone is built (0.2 mm cortical, 0.5
+/// mm between trabeculae), twice as long in cartilage: engineering choices, mm.
 constexpr double mean_lip_radius_mm = 2.0 / 3.0 * 18.25;
 constexpr std::array<double, vibration_kinds> correlation_mm{0.5, 0.2, 1.0, 0.5};
 
@@ -104,7 +104,8 @@ Blow blow(VibrationKind kind) {
 }
 
 /// One blow in each of equal spans of time, at a random tick of it; signs come in pairs. Peaks lie on ticks:
-/// at 1 kHz a peak between two samples would be lost to the hand.
+/// at 1 kHz a peak between two samples would be lost to the hand. (So it is at other speeds than the
+/// experiments'.)
 void add_blows(std::vector<double>& signal, double strongest, double samples_a_blow, size_t delay,
                Random& random) {
   constexpr double samples_a_tick = vibration_raw_rate_hz * tick_s;
@@ -219,8 +220,7 @@ std::vector<double> synthesized_vibration(VibrationKind kind, uint64_t seed) {
 
   // Even noise of +-w has variance w^2 / 3; the filter multiplies it by the energy of its response.
   const double noise = std::sqrt(3.0 * (1.0 - blows_share) * power_g2 / blow_of_one.energy);
-  std::vector<double> signal(
-      static_cast<size_t>((level.seconds + vibration_seam_s) * vibration_raw_rate_hz));
+  std::vector<double> signal(static_cast<size_t>((level.seconds + vibration_seam_s) * vibration_raw_rate_hz));
   for (double& sample : signal) sample = noise * (2.0 * random.even() - 1.0);
 
   if (blows_share > 0.0) {
@@ -261,8 +261,8 @@ VibrationTrack prepared_vibration(std::vector<double> signal, double g_rms, cons
   std::vector<float> loop = looped(signal);
   scale_to(1.0, loop, name);
   constexpr double tick_hz = 1.0 / tick_s;
-  VibrationTrack track = resampled_loop(resampled_loop(loop, vibration_raw_rate_hz, tick_hz), tick_hz,
-                                        vibration_track_rate_hz);
+  VibrationTrack track =
+      resampled_loop(resampled_loop(loop, vibration_raw_rate_hz, tick_hz), tick_hz, vibration_track_rate_hz);
   scale_to(g_rms, track, name);
   return track;
 }

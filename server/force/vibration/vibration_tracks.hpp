@@ -29,8 +29,8 @@ inline constexpr std::array<VibrationLevel, vibration_kinds> vibration_levels{
     {{0.40, 0.07, 5.28, 60.0}, {0.30, 0.09, 4.93, 60.0}, {0.10, 0.0, 0.0, 20.0}, {0.05, 0.0, 0.0, 20.0}}};
 
 inline constexpr double vibration_raw_rate_hz = 22050.0;  ///< of the experiments (thesis 5.3)
-inline constexpr double vibration_high_pass_hz = 0.2;   ///< takes gravity away (thesis 5.3)
-inline constexpr double vibration_low_pass_hz = 500.0;  ///< ends what can be felt (thesis 5.3)
+inline constexpr double vibration_high_pass_hz = 0.2;     ///< takes gravity away (thesis 5.3)
+inline constexpr double vibration_low_pass_hz = 500.0;    ///< ends what can be felt (thesis 5.3)
 
 /// Of the prepared tracks: a player that reads between two samples loses next to nothing of what lies below
 /// 500 Hz.
@@ -58,7 +58,8 @@ struct VibrationRecordings {
 struct VibrationSettings {
   VibrationSource source = VibrationSource::synthesized;
   VibrationRecordings recordings;
-  /// Hand newtons per g of the reamer: standard gravity times the mass of the handle, kg, that shall shake so.
+  /// Hand newtons per g of the reamer: standard gravity times the mass of the handle, kg, that shall shake
+  /// so.
   double vibration_n_per_g = 0.45;
   /// Limit of the vibration's own on the hand, beside that of the device, hand newtons.
   double vibration_max_n = 0.5;
@@ -75,9 +76,9 @@ inline constexpr double min_vibration_s = 2.0;
 
 /// The one way from a raw signal at 22,050 Hz, in any unit, to a track (thesis 5.3): Butterworth of order
 /// four, high-pass 0.2 Hz and low-pass 500 Hz; end faded into beginning; resampled to 1 kHz and from there to
-/// the tracks' rate; scaled to `g_rms`. Same input, same bits on one machine; it uses libm, and nothing that decides depends on it.
-/// `signal` is used up. `name` tells people what it was. Errors: invalid_input when it is shorter than
-/// min_vibration_s or still.
+/// the tracks' rate; scaled to `g_rms`. Same input, same bits on one machine; it uses libm, and nothing that
+/// decides depends on it. `signal` is used up. `name` tells people what it was. Errors: invalid_input when it
+/// is shorter than min_vibration_s or still.
 VibrationTrack prepared_vibration(std::vector<double> signal, double g_rms, const char* name);
 
 /// Root of the mean square.
@@ -104,7 +105,8 @@ double specimen_vibration(VibrationKind kind, uint64_t seed);
 /// Raw vibration of one kind at 22,050 Hz, to be prepared as a recording is. Noise and, for bone, blows of
 /// bounded random size come through one colouring filter without a resonance: the spectrum rises up to the
 /// material's corner (or the end of what a hand can feel) and has no line, and peak-to-peak is 13 to 16 times
-/// g_rms where a Gaussian has 7 to 8. Same seed, same samples on one machine; other seeds are independent of each other, and so are kinds.
+/// g_rms where a Gaussian has 7 to 8. Same seed, same samples on one machine; other seeds are independent of
+/// each other, and so are kinds.
 std::vector<double> synthesized_vibration(VibrationKind kind, uint64_t seed);
 
 }  // namespace ream::force

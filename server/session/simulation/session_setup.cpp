@@ -34,8 +34,7 @@ sim::Settings settings_for(const RunRequest& request, const device::Script& scri
   settings.feed.spindle_rad_s = rad_s_from_rpm(script.spindle_rpm);
   settings.feed.specimen_factor = script.specimen_factor;
   // A study's script says what it compares; else bone is cut as its case says.
-  settings.feed.cutting =
-      script.cutting.value_or(bone_case.cutting.value_or(force::CuttingCoefficients{}));
+  settings.feed.cutting = script.cutting.value_or(bone_case.cutting.value_or(force::CuttingCoefficients{}));
   settings.spindle = script.drive;
   return settings;
 }

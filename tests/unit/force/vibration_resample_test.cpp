@@ -34,13 +34,15 @@ TEST(Resampling, GoesUpToTheTracksRate) {
     const std::vector<float> got = resampled_loop(tone(f, 1000.0, 2000, 0.7), 1000.0, 4000.0);
     const std::vector<float> expected = tone(f, 4000.0, 8000, 0.7);
     ASSERT_EQ(got.size(), expected.size());
-    for (size_t i = 0; i < got.size(); ++i) ASSERT_NEAR(got[i], expected[i], 0.01) << f << " Hz, sample " << i;
+    for (size_t i = 0; i < got.size(); ++i)
+      ASSERT_NEAR(got[i], expected[i], 0.01) << f << " Hz, sample " << i;
   }
 }
 
 TEST(Resampling, SuppressesWhatTheNewRateCannotHold) {
   for (const double f : {500.0, 550.0, 600.0, 700.0, 999.0, 1100.0, 2205.0, 5000.0, 11000.0})
-    for (const float sample : resampled_loop(loop_of(f), 22050.0, 1000.0)) ASSERT_NEAR(sample, 0.0, 1e-3) << f << " Hz";
+    for (const float sample : resampled_loop(loop_of(f), 22050.0, 1000.0))
+      ASSERT_NEAR(sample, 0.0, 1e-3) << f << " Hz";
 }
 
 TEST(Resampling, GoesUpAndDownBetweenOtherRates) {

@@ -7,8 +7,8 @@
 #include <map>
 
 #include "core/units.hpp"
-#include "support/spectrum.hpp"
 #include "force/vibration/vibration_player.hpp"
+#include "support/spectrum.hpp"
 
 namespace ream::force {
 namespace {

@@ -98,7 +98,8 @@ TEST(EdgeFeed, ARemovedVolumeCostsTheSameInEveryContact) {
     EXPECT_NEAR(press(round_post(area_mm2, 0.0), flat_tool).energy_j_mm3, j_mm3, 0.1 * j_mm3) << area_mm2;
   EXPECT_NEAR(press(round_post(50.0, 9.0), flat_tool).energy_j_mm3, j_mm3, 0.2 * j_mm3) << "it walks";
   for (const double force_n : {5.0, 120.0})
-    EXPECT_NEAR(press(round_post(100.0, 0.0), flat_tool, force_n).energy_j_mm3, j_mm3, 0.1 * j_mm3) << force_n;
+    EXPECT_NEAR(press(round_post(100.0, 0.0), flat_tool, force_n).energy_j_mm3, j_mm3, 0.1 * j_mm3)
+        << force_n;
   for (const double density_g_cc : {0.41, 0.72, 1.0, 1.3, 1.61, 1.9}) {
     const double cost = press(round_post(100.0, 0.0, density_g_cc), flat_tool).energy_j_mm3;
     std::cout << density_g_cc << " g/cc: " << cost << " J/mm3\n";

@@ -54,7 +54,13 @@ function HoldButtons({ practiceStore, scene }: LivePageParts) {
   return (
     <>
       <DriveButtons hand={hand} onDone={toPicture} />
-      <PauseButton hand={hand} onDone={toPicture} />
+      <PauseButton
+        hand={hand}
+        onDone={() => {
+          hand.takeHold();
+          toPicture();
+        }}
+      />
     </>
   );
 }

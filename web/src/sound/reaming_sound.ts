@@ -8,8 +8,8 @@ export interface SoundInput {
   densityGCc: number;
   /** Of what is engaged, 0 to 1. */
   corticalShare: number;
-  /** Reversed negative, rad/s; 0 where the drive does not say it. */
-  spindleSpeedRadS: number;
+  /** Reversed negative, rad/s; null where a recording does not say it. */
+  spindleSpeedRadS: number | null;
   stalled: boolean;
   /** Strength that the hand feels, g rms; null where it is not known: then the value published for the bone. */
   vibrationG: number | null;
@@ -42,6 +42,8 @@ const measuredAtN = 52;
 // How a drill sounds is judged by ear, not measured: its hum, how much a push slows it, and the bands of the bone.
 const motorHz = 190;
 const fullSpeedRadS = (156 * 2 * Math.PI) / 60;
+/** Slower than this it stands, as on the server. */
+const standingShare = 0.02;
 /** A motor that cannot turn still hums. */
 const stalledHz = 60;
 const motorSlowsBy = 0.18;
@@ -50,6 +52,8 @@ const motorGain = 0.16;
 const cancellousHz = 620;
 const corticalHz = 1900;
 const gainPerG = 1.4;
+/** Single blows of the track are six times its strength: so that they are not cut off. */
+const trackGainPerG = 0.4;
 const cuttingGainMost = 0.75;
 /** A reamer that rests on the bone without going in rubs more quietly, full cutting from this feed on, mm/s. */
 const fullFeedMmS = 0.05;
@@ -60,24 +64,30 @@ const rubbingShare = 0.45;
  * is not sent, a noise that is brighter in harder bone stands for it.
  */
 export function soundOf(input: SoundInput): SoundParameters {
-  const turning = Math.abs(input.spindleSpeedRadS) > 0;
-  if (!input.spindleOn && !turning) return silence;
+  const speed = speedShare(input);
+  if (speed === 0 && !input.stalled) return silence;
   const push = share(input.thrustN / slowestAtN);
   const cortical = share(input.corticalShare);
   const engaged = input.densityGCc > 0 && input.thrustN > 0;
   return {
-    motorHz: motorPitchHz(input, push),
-    motorGain: motorGain * (1 + 0.5 * push),
+    motorHz: motorPitchHz(input, speed, push),
+    motorGain: motorGain * (1 + 0.5 * push) * (input.stalled ? 1 : share(speed)),
     cuttingHz: cancellousHz * (corticalHz / cancellousHz) ** cortical,
     cuttingGain: engaged && !input.tracked ? Math.min(strengthG(input, cortical) * gainPerG, cuttingGainMost) : 0,
-    trackGain: input.tracked ? gainPerG : 0,
+    trackGain: input.tracked ? trackGainPerG : 0,
   };
 }
 
-function motorPitchHz({ spindleSpeedRadS, stalled }: SoundInput, push: number): number {
-  if (stalled) return stalledHz;
+/** Of the full speed; 0 while it stands. */
+function speedShare({ spindleOn, spindleSpeedRadS }: SoundInput): number {
+  if (spindleSpeedRadS === null) return spindleOn ? 1 : 0;
   const speed = Math.abs(spindleSpeedRadS) / fullSpeedRadS;
-  if (!(speed > 0)) return motorHz * (1 - motorSlowsBy * push);
+  return speed > standingShare ? speed : 0;
+}
+
+function motorPitchHz({ spindleSpeedRadS, stalled }: SoundInput, speed: number, push: number): number {
+  if (stalled) return stalledHz;
+  if (spindleSpeedRadS === null) return motorHz * (1 - motorSlowsBy * push);
   return Math.min(Math.max(motorHz * speed, stalledHz), 4 * motorHz);
 }
 

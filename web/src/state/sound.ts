@@ -21,7 +21,7 @@ export class Sound {
   /** The newest parameters; for tests and the readout. */
   readonly parameters = signal<SoundParameters>(silence);
   private sink: SoundSink | null = null;
-  /** The batch whose vibration was sent last: each is heard once. */
+  /** The newest batch: the vibration of each is heard once. */
   private heard: Telemetry | null = null;
 
   constructor(
@@ -32,7 +32,7 @@ export class Sound {
       const parameters = this.now();
       this.parameters.value = parameters;
       this.sink?.setParameters(parameters);
-      if (parameters.trackGain > 0) this.sendTrack();
+      this.sendTrack(parameters.trackGain > 0);
     });
   }
 
@@ -63,16 +63,21 @@ export class Sound {
     if (!this.on.value || t === null || !store.upToDate.value) return silence;
     const moves = store.playback.value === null ? store.sessionState.value === 'running' : store.playback.value.playing;
     if (!moves) return silence;
-    const { vibrationG } = t;
-    const tracked = vibrationG.length > 0 && t.tickStride === 1 && (store.playback.value?.speed ?? 1) === 1;
-    return soundOf({ ...t, thrustN: t.thrustN.at(-1) ?? 0, vibrationG: rootMeanSquare(vibrationG), tracked });
+    // What came before a jump of a replay is drawn, not heard.
+    if (t.tickStride !== 1) return this.parameters.peek();
+    const { vibrationG, spindleOn, stalled } = t;
+    const tracked = vibrationG.length > 0 && (store.playback.value?.speed ?? 1) === 1;
+    const saysSpeed = store.playback.value === null || t.spindleSpeedRadS !== 0 || !spindleOn || stalled;
+    const spindleSpeedRadS = saysSpeed ? t.spindleSpeedRadS : null;
+    const thrustN = t.thrustN.at(-1) ?? 0;
+    return soundOf({ ...t, thrustN, spindleSpeedRadS, vibrationG: rootMeanSquare(vibrationG), tracked });
   }
 
-  private sendTrack(): void {
+  private sendTrack(tracked: boolean): void {
     const t = this.store.telemetry.peek();
     if (t === null || t === this.heard) return;
     this.heard = t;
-    this.sink?.addTrack(t.vibrationG);
+    if (tracked && t.tickStride === 1) this.sink?.addTrack(t.vibrationG);
   }
 }
 

@@ -11,7 +11,7 @@ const seated: SoundInput = {
   feedRateMmS: 0.2,
   densityGCc: 1.4,
   corticalShare: 1,
-  spindleSpeedRadS: 0,
+  spindleSpeedRadS: null,
   stalled: false,
   vibrationG: null,
   tracked: false,
@@ -38,6 +38,12 @@ function sound(heard: SoundInput): Float32Array {
 }
 
 describe('what the reamer sounds like', () => {
+  it('keeps the published strength within bounds, blow by blow', () => {
+    const { trackGain } = soundOf({ ...seated, tracked: true });
+    expect(Math.tanh(2.6 * trackGain)).toBeLessThan(0.8);
+    expect(trackGain * 0.3).toBeGreaterThan(0.1);
+  });
+
   it('is nothing while the spindle stands, whatever else is told', () => {
     expect(soundOf({ ...seated, spindleOn: false })).toEqual(silence);
     expect(rms(sound({ ...seated, spindleOn: false }))).toBe(0);
@@ -75,6 +81,8 @@ describe('what the reamer sounds like', () => {
     expect(soundOf({ ...seated, spindleSpeedRadS: 0, stalled: true }).motorHz).toBeLessThan(at(78));
     const coasting = soundOf({ ...seated, spindleOn: false, spindleSpeedRadS: 8 });
     expect(coasting.motorGain).toBeGreaterThan(0);
+    expect(coasting.motorGain).toBeLessThan(soundOf({ ...seated, spindleSpeedRadS: 16.3 }).motorGain);
+    expect(soundOf({ ...seated, spindleSpeedRadS: 0.1 })).toEqual(silence);
   });
 
   it('goes by the vibration where that is told', () => {

@@ -69,6 +69,9 @@ export function Figures({ store }: { store: Store }) {
   );
 }
 
+/** Slower than this it stands, rad/s. */
+const standingRadS = 0.3;
+
 /** Its speed, or why it has none. */
 function Spindle({ telemetry: t }: { telemetry: Telemetry | null }) {
   // Recordings from before the drive had a speed do not tell it.
@@ -81,7 +84,11 @@ function Spindle({ telemetry: t }: { telemetry: Telemetry | null }) {
     );
   }
   return (
-    <Figure name={appText.spindle} unit={t.spindleSpeedRadS < 0 ? appText.rpmReversed : appText.rpm} id="spindle-speed">
+    <Figure
+      name={appText.spindle}
+      unit={t.spindleSpeedRadS <= -standingRadS ? appText.rpmReversed : appText.rpm}
+      id="spindle-speed"
+    >
       {fixed((Math.abs(t.spindleSpeedRadS) * 30) / Math.PI, 0)}
     </Figure>
   );
