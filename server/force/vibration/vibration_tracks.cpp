@@ -27,6 +27,7 @@ constexpr std::array<double, vibration_kinds> correlation_mm{0.5, 0.2, 1.0, 0.5}
 double corner_hz(VibrationKind kind) {
   return reference_spindle_rad_s * mean_lip_radius_mm / correlation_mm[static_cast<size_t>(kind)];
 }
+
 /// The shortest time that is a whole number of samples at 22,050 Hz and of ticks.
 constexpr size_t samples_a_beat = 441;
 

@@ -88,11 +88,12 @@ export class Headset {
     try {
       const session = await navigator.xr.requestSession('immersive-vr', { optionalFeatures: ['local-floor'] });
       session.addEventListener('end', () => this.onSessionEnd());
-      this.place(standpoint());
       const { xr } = this.renderer;
       xr.enabled = true;
       xr.setReferenceSpaceType('local');
       await xr.setSession(session);
+      // Only now: bone that came meanwhile has found no headset to place.
+      this.place(standpoint());
       this.worn.value = true;
       this.drawnAtMs = performance.now();
       this.renderer.setAnimationLoop(() => this.frame());
