@@ -6,10 +6,8 @@
 #include <cmath>
 #include <string>
 
-#include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "force/vibration/vibration_tracks.hpp"
 
 namespace ream::force {
 namespace {

@@ -73,7 +73,7 @@ void run(HeatColumn& column, const HeatSettings& bone, double seconds, const Hea
     column.step(bone, surface, speed_mm_s * step_s, step_s);
 }
 
-/// A row of mechanics.md 10e: what somebody else computed, depths in steps of 0.2 mm.
+/// What somebody else computed of a reaming, depths in steps of 0.2 mm.
 struct Row {
   double flux_kw_m2, k, c, film_w_m2_k, seconds, surface_c, dead_mm;
 };
@@ -190,7 +190,7 @@ void work(HeatedBone& heated, double seconds, const HeatTick& tick) {
   for (int i = 0; i < static_cast<int>(1000 * seconds); ++i) heated.add({}, tick);
 }
 
-/// A reaming of mechanics.md 10e: torque that grows with thrust from 0.48 N m at 52 N on 685 mm2.
+/// Torque that grows with thrust from 0.48 N m at 52 N on 685 mm2.
 HeatTick seated(double thrust_n, double rpm, bool irrigated) {
   HeatTick tick;
   tick.power_w = 0.48 * thrust_n / 52.0 * rpm * 2.0 * std::acos(-1.0) / 60.0;

@@ -1,3 +1,5 @@
+import { fullSpindleRadS, standingSpindleRadS } from '../wire/telemetry';
+
 /** What of a session is heard. Of this moment, or nothing. */
 export interface SoundInput {
   spindleOn: boolean;
@@ -41,9 +43,6 @@ const measuredAtN = 52;
 
 // How a drill sounds is judged by ear, not measured: its hum, how much a push slows it, and the bands of the bone.
 const motorHz = 190;
-const fullSpeedRadS = (156 * 2 * Math.PI) / 60;
-/** Slower than this it stands, as on the server. */
-const standingShare = 0.02;
 /** A motor that cannot turn still hums. */
 const stalledHz = 60;
 const motorSlowsBy = 0.18;
@@ -81,8 +80,8 @@ export function soundOf(input: SoundInput): SoundParameters {
 /** Of the full speed; 0 while it stands. */
 function speedShare({ spindleOn, spindleSpeedRadS }: SoundInput): number {
   if (spindleSpeedRadS === null) return spindleOn ? 1 : 0;
-  const speed = Math.abs(spindleSpeedRadS) / fullSpeedRadS;
-  return speed > standingShare ? speed : 0;
+  const speedRadS = Math.abs(spindleSpeedRadS);
+  return speedRadS > standingSpindleRadS ? speedRadS / fullSpindleRadS : 0;
 }
 
 function motorPitchHz({ spindleSpeedRadS, stalled }: SoundInput, speed: number, push: number): number {

@@ -3,6 +3,10 @@ import { SessionState as WireState } from './generated/ream/wire/session-state';
 import type { Telemetry as WireTelemetry } from './generated/ream/wire/telemetry';
 import { pose, type Pose } from './pose';
 
+/** Speed of a drive whose trigger is pressed all the way, and that below which its spindle stands, rad/s. */
+export const fullSpindleRadS = (156 * 2 * Math.PI) / 60;
+export const standingSpindleRadS = 0.02 * fullSpindleRadS;
+
 export type SessionState =
   'created' | 'running' | 'paused' | 'finished' | 'stopped' | 'fault' | 'interrupted' | 'replaying';
 

@@ -4,7 +4,7 @@ import { heatLevel } from '../../state/alarms';
 import type { Store } from '../../state/store';
 import { appText } from '../../text/app_text';
 import { fixed } from '../../text/format';
-import type { Telemetry } from '../../wire/telemetry';
+import { standingSpindleRadS, type Telemetry } from '../../wire/telemetry';
 
 /** One number with its name. */
 export function Figure({
@@ -69,9 +69,6 @@ export function Figures({ store }: { store: Store }) {
   );
 }
 
-/** Slower than this it stands, rad/s. */
-const standingRadS = 0.3;
-
 /** Its speed, or why it has none. */
 function Spindle({ telemetry: t }: { telemetry: Telemetry | null }) {
   // Recordings from before the drive had a speed do not tell it.
@@ -86,7 +83,7 @@ function Spindle({ telemetry: t }: { telemetry: Telemetry | null }) {
   return (
     <Figure
       name={appText.spindle}
-      unit={t.spindleSpeedRadS <= -standingRadS ? appText.rpmReversed : appText.rpm}
+      unit={t.spindleSpeedRadS < -standingSpindleRadS ? appText.rpmReversed : appText.rpm}
       id="spindle-speed"
     >
       {fixed((Math.abs(t.spindleSpeedRadS) * 30) / Math.PI, 0)}
