@@ -61,12 +61,14 @@ Gauged ream(const test::RandomReaming& reaming, double voxel_mm) {
   return gauged;
 }
 
-/// The same reaming straight down the plan, to its depth.
+/// The same reaming straight down the plan, to its depth: by an arm stiff enough that the reamer cannot walk
+/// aside, as what is asked is where a reaming along the plan ends.
 test::RandomReaming to_the_plan(test::RandomReaming reaming) {
   auto& robot = reaming.script["robot"];
   robot["start_mm"] = {0.0, 0.0, -5.0};
   robot["tilt_deg"] = {0.0, 0.0, 0.0};
   robot["depth_mm"] = reaming.plan.depth_mm;
+  robot["line_stiffness_n_mm"] = 1000.0;
   return reaming;
 }
 
@@ -79,6 +81,9 @@ unsigned reamings() {
 void add_rows(double voxel_mm, const Options& options, std::vector<Row>& rows) {
   Gauged worst, planned;
   double early_percent = 0.0, held_s = 0.0, lost_mm3 = 0.0;
+  const auto mm3 = [&](const Gauged& one) {
+    return static_cast<double>(one.way_out.removed_levels()) / 255.0 * voxel_mm * voxel_mm * voxel_mm;
+  };
   for (unsigned seed = 0; seed < reamings(); ++seed) {
     const test::RandomReaming reaming = test::random_reaming(seed, voxel_mm);
     const Gauged free = ream(reaming, voxel_mm), guided = ream(to_the_plan(reaming), voxel_mm);
@@ -86,15 +91,15 @@ void add_rows(double voxel_mm, const Options& options, std::vector<Row>& rows) {
       *options.tables << voxel_mm << " mm, seed " << seed << ", " << reaming.plan.reamer << ": gauge off by "
                       << free.worst_mm << " mm at worst, " << free.gauge_mm << " of " << free.true_mm
                       << " mm at the end; to the plan " << guided.gauge_mm << " of " << reaming.plan.depth_mm
-                      << " mm; cutting before contact " << free.before_contact_percent() << " %; free "
+                      << " mm; cutting before contact " << free.before_contact_percent()
+                      << " %; removed on the way out " << mm3(free) << " and " << mm3(guided) << " mm3; free "
                       << free.way_out.seconds_to_be_free() << " and " << guided.way_out.seconds_to_be_free()
                       << " s after drawing back" << std::endl;
     for (const Gauged& one : {free, guided}) {
       worst.worst_mm = std::max(worst.worst_mm, one.worst_mm);
       early_percent = std::max(early_percent, one.before_contact_percent());
       held_s = std::max(held_s, one.way_out.seconds_to_be_free());
-      lost_mm3 = std::max(lost_mm3, static_cast<double>(one.way_out.removed_levels()) / 255.0 * voxel_mm *
-                                        voxel_mm * voxel_mm);
+      lost_mm3 = std::max(lost_mm3, mm3(one));
     }
     planned.worst_mm = std::max(planned.worst_mm, std::abs(guided.gauge_mm - reaming.plan.depth_mm));
   }

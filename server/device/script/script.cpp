@@ -107,6 +107,7 @@ RobotParameters parse_robot(JsonReader reader) {
   robot.force_n = reader.number_or("force_n", robot.force_n, 1.0, 500.0);
   robot.ramp_s = reader.number_or("ramp_s", robot.ramp_s, 0.1, 60.0);
   robot.depth_mm = reader.number_or("depth_mm", robot.depth_mm, 0.01, 50.0);
+  robot.line_stiffness_n_mm = reader.number_or("line_stiffness_n_mm", robot.line_stiffness_n_mm, 1.0, 1000.0);
   reader.finish();
   return robot;
 }

@@ -79,6 +79,7 @@ struct RobotParameters {
   double force_n = 52.0;
   double ramp_s = 2.0;
   double depth_mm = 2.0;
+  double line_stiffness_n_mm = 20.0;  ///< of its arm, across its line: a light, compliant one
 };
 
 enum class ScriptKind {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "core/clock.hpp"
 #include "core/error.hpp"
@@ -10,8 +11,9 @@ namespace {
 
 /// Time constant of the robot's speed control, and how long it may be held up before that is contact.
 constexpr double speed_control_s = 0.004, contact_after_s = 0.02, under_way_after_s = 0.1;
-/// How firmly the robot keeps its line and orientation. Engineering choice.
-constexpr double line_stiffness_n_mm = 20.0, line_damping_n_s_mm = 0.2;
+/// How firmly the robot keeps its orientation, and how its line's spring is damped: at any stiffness the same
+/// share of critical. Engineering choice.
+constexpr double line_damping_n_s_mm = 0.2, damped_stiffness_n_mm = 20.0;
 constexpr double turn_stiffness_n_mm_rad = 5.0e4, turn_damping_n_mm_s_rad = 500.0;
 
 /// The experiments' robot (thesis 5.1) as an admittance device: it drives along its line until something
@@ -22,7 +24,9 @@ class RobotDevice final : public ScriptedDevice {
   RobotDevice(const Script& script, const Pose& world_from_plan)
       : ScriptedDevice(script, world_from_plan, "robot"),
         robot_(script.robot),
-        held_(rotation_from_small_vector(script.robot.tilt_rad)) {
+        held_(rotation_from_small_vector(script.robot.tilt_rad)),
+        line_damping_n_s_mm_(line_damping_n_s_mm *
+                             std::sqrt(script.robot.line_stiffness_n_mm / damped_stiffness_n_mm)) {
     if (traits_.causality != Causality::admittance)
       throw Error(ErrorKind::invalid_input,
                   "a robot needs an admittance device, and " + traits_.profile + " is none");
@@ -88,7 +92,7 @@ class RobotDevice final : public ScriptedDevice {
     const Vec3 off_line = handle_.plan_from_handle().translation_mm - robot_.start_mm;
     const Vec3 sideways = off_line - axis * axis.dot(off_line);
     const Vec3 slip = handle_.velocity_mm_s() - axis * axis.dot(handle_.velocity_mm_s());
-    const Vec3 force_n = axis * axial - line_stiffness_n_mm * sideways - line_damping_n_s_mm * slip;
+    const Vec3 force_n = axis * axial - robot_.line_stiffness_n_mm * sideways - line_damping_n_s_mm_ * slip;
     const Vec3 torque_n_mm = held_ * (-turn_stiffness_n_mm_rad * handle_.turn_rad(held_) -
                                       turn_damping_n_mm_s_rad * handle_.turn_rate_rad_s());
     const double per_simulated = 1.0 / script_.force_scale;
@@ -100,6 +104,7 @@ class RobotDevice final : public ScriptedDevice {
 
   RobotParameters robot_;
   Mat3 held_;
+  double line_damping_n_s_mm_;
   CommandedPose handle_;
   Phase phase_ = Phase::approach;
   double since_s_ = 0.0, moved_s_ = 0.0, from_mm_ = 0.0, last_s_ = 0.0;

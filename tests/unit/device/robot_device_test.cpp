@@ -109,21 +109,29 @@ TEST(RobotDevice, NeedsADeviceThatTakesForce) {
   test::expect_error(ErrorKind::invalid_input, "admittance", [&] { make_scripted_device(script, Pose{}); });
 }
 
-TEST(RobotDevice, KeepsItsLine) {
-  Script script = protocol();
-  script.duration_s = 2.0;
-  const auto device = make_scripted_device(script, Pose{});
-  DeviceInput input;
-  device->open();
-  YieldingWall mass{260.0, Vec3(0, 0, -3)};
-  double farthest_mm = 0.0;
-  for (int tick = 0; device->read(input) == DeviceStatus::ok; ++tick) {
-    mass.take(input.hand_force_n + Vec3(tick > 100 && tick < 1000 ? 10.0 : 0.0, 0, 0));
-    farthest_mm = std::max(farthest_mm, mass.position_mm.x());
-    device->write({Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Pose{Mat3::Identity(), mass.position_mm}});
+TEST(RobotDevice, KeepsItsLineAsFirmlyAsItsArmIsStiff) {
+  for (const double stiffness_n_mm : {20.0, 200.0, 1000.0}) {
+    Script script = protocol();
+    script.duration_s = 2.0;
+    script.robot.line_stiffness_n_mm = stiffness_n_mm;
+    script.robot.start_mm.z() = -30.0;
+    const auto device = make_scripted_device(script, Pose{});
+    DeviceInput input;
+    device->open();
+    YieldingWall mass{260.0, script.robot.start_mm};
+    double farthest_mm = 0.0, held_mm = 0.0;
+    for (int tick = 0; device->read(input) == DeviceStatus::ok; ++tick) {
+      const bool pushed = tick > 100 && tick < 1500;
+      mass.take(input.hand_force_n + Vec3(pushed ? 10.0 : 0.0, 0, 0));
+      farthest_mm = std::max(farthest_mm, mass.position_mm.x());
+      if (pushed) held_mm = mass.position_mm.x();
+      device->write({Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Pose{Mat3::Identity(), mass.position_mm}});
+    }
+    const double deflection_mm = 10.0 / stiffness_n_mm;
+    EXPECT_NEAR(held_mm, deflection_mm, 0.02 * deflection_mm) << stiffness_n_mm;
+    EXPECT_LT(farthest_mm, 2.0 * deflection_mm) << stiffness_n_mm;
+    EXPECT_LT(std::abs(mass.position_mm.x()), 0.02 * deflection_mm) << stiffness_n_mm;
   }
-  EXPECT_LT(farthest_mm, 1.0) << "10 N on 20 N/mm, at most twice on the way";
-  EXPECT_LT(std::abs(mass.position_mm.x()), 0.01);
 }
 
 TEST(RobotDevice, BeginsAnewWhenOpenedAgain) {

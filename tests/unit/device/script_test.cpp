@@ -107,7 +107,8 @@ TEST(Script, ReadsARobot) {
   const Script script = parse_script(
       json::parse(
           R"({"device": "robot", "duration_s": 60, "robot": {"start_mm": [0, 0, -2], "tilt_deg": [0, 90, 0],
-                      "approach_mm_s": 1, "force_n": 40, "ramp_s": 5, "depth_mm": 0.5}})"),
+                      "approach_mm_s": 1, "force_n": 40, "ramp_s": 5, "depth_mm": 0.5,
+                      "line_stiffness_n_mm": 200}})"),
       "run.json");
   EXPECT_EQ(script.kind, ScriptKind::robot);
   EXPECT_EQ(script.device_profile, "ideal-admittance");
@@ -117,6 +118,7 @@ TEST(Script, ReadsARobot) {
   EXPECT_EQ(script.robot.force_n, 40.0);
   EXPECT_EQ(script.robot.ramp_s, 5.0);
   EXPECT_EQ(script.robot.depth_mm, 0.5);
+  EXPECT_EQ(script.robot.line_stiffness_n_mm, 200.0);
 }
 
 TEST(Script, AsksNoMoreOfADeviceThanItCan) {
