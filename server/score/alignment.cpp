@@ -20,6 +20,8 @@ constexpr const char* no_scapular_frame =
 constexpr const char* misses_surface = "the achieved axis does not meet the untouched surface near the face";
 constexpr int steps_to_surface = 30;
 constexpr double on_surface_mm = 1e-9;
+/// Version within this of neutral is a good correction (PMC4857532).
+constexpr double neutral_version_deg = 7.0;
 
 double angle_deg(const Vec3& a, const Vec3& b) {
   return degrees_from_radians(std::atan2(a.cross(b).norm(), a.dot(b)));
@@ -64,7 +66,7 @@ void measure_angles(const Task& task, const Vec3& world_axis, MetricResults& res
   const auto frame = scapular_frame_of(task);
   if (!frame) {
     for (const char* key : {"version_achieved_deg", "inclination_achieved_deg", "retroversion_achieved_deg",
-                            "version_error_deg", "inclination_error_deg"})
+                            "version_error_deg", "inclination_error_deg", "version_excess_deg"})
       results.set_missing(key, no_scapular_frame);
     return;
   }
@@ -76,6 +78,8 @@ void measure_angles(const Task& task, const Vec3& world_axis, MetricResults& res
   const Angles planned = angles_across(*frame, task.plan->axis_direction);
   results.set("version_error_deg", std::abs(achieved.version_deg - planned.version_deg));
   results.set("inclination_error_deg", std::abs(achieved.inclination_deg - planned.inclination_deg));
+  const double allowed_deg = std::max(neutral_version_deg, std::abs(planned.version_deg));
+  results.set("version_excess_deg", std::max(0.0, std::abs(achieved.version_deg) - allowed_deg));
 }
 
 void measure_places(const NativeGlenoid& native, const CutLine& line, MetricResults& results) {

@@ -14,6 +14,9 @@ namespace {
 
 constexpr int directions = 360;
 constexpr double inside_rim_mm = 1.0;
+/// Of the component, where bone left under it is looked at; bone less thick than the other is the vault's
+/// edge.
+constexpr double middle_mm = 3.0, thick_bone_mm = 5.0;
 
 bool is_reamed(const AchievedFace& face, size_t ray) {
   return face.removed_mm[ray] >= reamed_mm && face.surface_mm[ray] != no_surface_mm;
@@ -128,21 +131,24 @@ void measure_congruity(const NativeGlenoid& native, const AchievedFace& face, Me
   results.set("fitted_radius_mm", sphere->radius_mm);
 }
 
-/// Share of the subchondral plate preserved under the component.
-void measure_plate(const NativeGlenoid& native, const AchievedFace& face, const Component& component,
-                   MetricResults& results) {
-  const char* nothing = "the component has no native face under it";
-  const SubchondralPlate& plate = native.plate();
-  if (component.footprint().empty()) return results.set_missing("plate_preserved_percent", nothing);
-  size_t preserved = 0;
+/// Bone that is left under the component's middle, and holes in the face.
+void measure_vault_left(const NativeGlenoid& native, const AchievedFace& face, const Component& component,
+                        MetricResults& results) {
+  const Vec3 middle = component.apex_mm();
+  std::optional<double> least_mm;
+  size_t pierced = 0;
   for (const size_t ray : component.footprint()) {
-    const double top = native.subchondral_mm()[ray];
-    const double whole = std::min(plate.thickness_mm[ray], native.exit_mm()[ray] - top);
-    const double left = top + whole - std::max(top, native.surface_mm()[ray] + face.removed_mm[ray]);
-    preserved += left >= 0.5 * whole;
+    const double exit = native.exit_mm()[ray], surface = face.surface_mm[ray];
+    const bool thick = exit - native.surface_mm()[ray] >= thick_bone_mm;
+    pierced += thick && surface == no_surface_mm;
+    const double aside_mm =
+        std::hypot(native.rays().x_mm(ray) - middle.x(), native.rays().y_mm(ray) - middle.y());
+    if (aside_mm > middle_mm || exit == no_surface_mm) continue;
+    const double left = surface == no_surface_mm ? 0.0 : exit - surface;
+    least_mm = std::min(least_mm.value_or(left), left);
   }
-  results.set("plate_preserved_percent",
-              100.0 * static_cast<double>(preserved) / static_cast<double>(component.footprint().size()));
+  results.set_or_missing("vault_depth_mm", least_mm, "the component has no face under its middle");
+  results.set("perforated_area_mm2", static_cast<double>(pierced) * native.rays().cell_area_mm2());
 }
 
 }  // namespace
@@ -152,7 +158,7 @@ void set_depth(const Task& task, double depth_mm, MetricResults& results) {
   if (task.plan) results.set("depth_error_mm", std::abs(depth_mm - task.plan->depth_mm));
 }
 
-MetricResults bone_results(const NativeGlenoid& native, const CoverageView& left,
+MetricResults bone_results(const NativeGlenoid& native, const PlannedFace& planned, const CoverageView& left,
                            const std::optional<CutLine>& plan_line, const Pose& world_from_plan) {
   MetricResults results;
   measure_plan(native.task(), results);
@@ -163,6 +169,7 @@ MetricResults bone_results(const NativeGlenoid& native, const CoverageView& left
     return results;
   }
   results.set("plate_thickness_mm", native.plate().median_mm);
+  measure_planned_face(planned, results);
   if (!plan_line) {
     const char* untouched = "no bone was removed";
     for (const Basis basis : {Basis::reamed_bone, Basis::achieved_axis})
@@ -181,7 +188,11 @@ MetricResults bone_results(const NativeGlenoid& native, const CoverageView& left
     results.set("seating_percent", 100.0 * component.supported_share());
   else
     results.set_missing("seating_percent", "there is no bone left to seat a component on");
-  measure_plate(native, face, component, results);
+  results.set_or_missing("plate_preserved_percent",
+                         plate_preserved_percent(native, face.removed_mm, component.footprint()),
+                         "the component has no native face under it");
+  measure_against_plan(native, planned, face, results);
+  measure_vault_left(native, face, component, results);
   measure_vault_clearance(native, component, line, results);
   return results;
 }

@@ -1,12 +1,14 @@
 #pragma once
 #include "score/component.hpp"
 #include "score/metric_results.hpp"
+#include "score/planned_face.hpp"
 
 namespace ream::score {
 
-/// Everything that bone and achieved axis tell; never throws. `plan_line`: CutAxis::line(), empty when
-/// nothing was cut; `world_from_plan`: its frame. `left`: what remains, with the bone at rest.
-MetricResults bone_results(const NativeGlenoid& native, const CoverageView& left,
+/// Everything that bone and achieved axis tell; never throws. `planned`: planned_face(native). `plan_line`:
+/// CutAxis::line(), empty when nothing was cut; `world_from_plan`: its frame. `left`: what remains, with the
+/// bone at rest.
+MetricResults bone_results(const NativeGlenoid& native, const PlannedFace& planned, const CoverageView& left,
                            const std::optional<CutLine>& plan_line, const Pose& world_from_plan);
 
 /// Sets how deep the reaming is, see DepthGauge, and how far that is from the plan.

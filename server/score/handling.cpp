@@ -1,6 +1,7 @@
 #include "score/handling.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/clock.hpp"
 #include "force/edge_load.hpp"
@@ -61,9 +62,13 @@ void ContactPasses::add(const record::TickReport& report) {
 }
 
 void Thrust::add(const record::TickReport& r, double axial_mm) {
-  if (r.engaged && r.spindle_on) {
-    ++ticks_;
+  if (is_pressed_cut(r)) {
+    ++cutting_ticks_;
     sum_n_ += r.thrust_n;
+    sum_n2_ += r.thrust_n * r.thrust_n;
+  }
+  if (r.engaged && r.spindle_on) {
+    overload_ticks_ += r.thrust_n > excess_from_n;
     peak_n_ = std::max(peak_n_, r.thrust_n);
     excess_n_s_ += std::max(0.0, r.thrust_n - excess_from_n) * tick_s;
   }
@@ -84,7 +89,15 @@ void Thrust::follow_rise(const record::TickReport& r, double axial_mm) {
 }
 
 void Thrust::write(MetricResults& results) const {
-  results.set_exact("axial_thrust_mean_n", ticks_ > 0 ? sum_n_ / static_cast<double>(ticks_) : 0.0);
+  std::optional<double> mean_n, sd_n;
+  if (cutting_ticks_ > 0) {
+    const auto ticks = static_cast<double>(cutting_ticks_);
+    mean_n = sum_n_ / ticks;
+    sd_n = std::sqrt(std::max(0.0, sum_n2_ / ticks - *mean_n * *mean_n));
+  }
+  results.set_or_missing("axial_thrust_mean_n", mean_n, never_cut);
+  results.set_or_missing("axial_thrust_sd_n", sd_n, never_cut);
+  results.set_exact("overload_time_s", static_cast<double>(overload_ticks_) * tick_s);
   results.set_exact("axial_thrust_peak_n", peak_n_);
   results.set("axial_thrust_excess_n_s", excess_n_s_);
   if (apparent_stiffness_n_mm_)
@@ -104,6 +117,7 @@ void Handling::add(const record::TickReport& r, const Vec3& in_bone_mm, double a
   breakthrough_.add(r, axial_mm);
   plate_stop_.add(r, axial_mm);
   passes_.add(r);
+  spindle_use_.add(r);
   path_.add(in_bone_mm, r.engaged, r.paused);
 }
 
@@ -117,6 +131,7 @@ void Handling::write(MetricResults& results) const {
   results.set_exact("extrapolated_time_s", static_cast<double>(extrapolated_ticks_) * tick_s);
   thrust_.write(results);
   write_advances(results);
+  spindle_use_.write(results);
   results.set("passes", passes_.count());
   results.set("path_in_contact_mm", path_.in_contact_mm());
   results.set("path_out_of_contact_mm", path_.in_the_air_mm());

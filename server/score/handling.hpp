@@ -4,12 +4,11 @@
 
 #include "record/tick_report.hpp"
 #include "score/metric_results.hpp"
+#include "score/spindle_use.hpp"
 #include "score/tool_path.hpp"
 
 namespace ream::score {
 
-/// Under this thrust a hand no longer presses (science 2.2).
-inline constexpr double pressing_n = 5.0;
 /// Share of the engaged points from which on a kind of bone is reached (engineering judgement).
 inline constexpr double reached_share = 0.1;
 /// Apparent stiffness is measured from the thrust at which lips begin to cut to 90 % of the experiments' 52
@@ -18,7 +17,8 @@ inline constexpr double stiffness_from_n = 1.0, stiffness_to_n = 0.9 * 52.0;
 /// Thrust beyond this is excess: 1.5 times the experiments' 52 N (science 2.2).
 inline constexpr double excess_from_n = 78.0;
 
-/// Thrust along the tool's axis over the ticks in contact with the spindle on, simulated newtons.
+/// Thrust along the tool's axis, simulated newtons: mean and deviation over pressed cutting, peak and excess
+/// over the ticks in contact with the spindle on.
 class Thrust {
  public:
   void add(const record::TickReport& report, double axial_mm);
@@ -27,8 +27,8 @@ class Thrust {
  private:
   void follow_rise(const record::TickReport& report, double axial_mm);
 
-  int64_t ticks_ = 0;
-  double sum_n_ = 0.0, peak_n_ = 0.0, excess_n_s_ = 0.0;
+  int64_t cutting_ticks_ = 0, overload_ticks_ = 0;
+  double sum_n_ = 0.0, sum_n2_ = 0.0, peak_n_ = 0.0, excess_n_s_ = 0.0;
   bool rising_ = false;  ///< thrust is over stiffness_from_n since rise_thrust_n_ at rise_mm_
   double rise_thrust_n_ = 0.0, rise_mm_ = 0.0;
   bool risen_ = false;
@@ -117,6 +117,7 @@ class Handling {
   Breakthrough breakthrough_;
   PlateStop plate_stop_;
   ContactPasses passes_;
+  SpindleUse spindle_use_;
   ToolPath path_;
 };
 

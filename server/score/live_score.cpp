@@ -15,7 +15,7 @@ bool LiveScore::update(const MetricsAccumulator& ticks, const CoverageView& left
   }
   const int64_t measured_ns = steady_ns();
   if (all_is_due) {
-    results_ = bone_results(native_, left, ticks.cut_line(), world_from_plan_);
+    results_ = bone_results(native_, planned_, left, ticks.cut_line(), world_from_plan_);
     due_ns_ = now_ns + std::max(period_ns, rest_for_work * (steady_ns() - measured_ns));
   }
   if ((depth_is_due || all_is_due) && gauge_.has_face() && ticks.cut_line())

@@ -22,6 +22,7 @@ class LiveScore {
   LiveScore(const std::shared_ptr<const NativeGlenoid>& native, const Pose& world_from_plan)
       : gauge_(native),
         native_(native->thinned(stride)),
+        planned_(planned_face(native_)),
         world_from_plan_(world_from_plan),
         results_(missing_bone_results("it is measured when the session has begun")) {}
 
@@ -35,6 +36,7 @@ class LiveScore {
  private:
   DepthGauge gauge_;
   const NativeGlenoid native_;
+  const PlannedFace planned_;
   const Pose world_from_plan_;
   MetricResults results_;
   double depth_mm_ = 0.0;

@@ -20,6 +20,7 @@ void MetricsAccumulator::add(const record::TickReport& r) {
                 r.coverage_removed[0] + r.coverage_removed[1] + r.coverage_removed[2]);
   handling_.add(r, in_bone_mm, axial_mm);
   heating_.add(r);
+  axis_steadiness_.add(r, bone_from_tool);
 }
 
 double MetricsAccumulator::removed_mm3(voxel::BoneClass bone_class) const {
@@ -39,6 +40,7 @@ MetricResults MetricsAccumulator::results() const {
   results.set_exact("removed_volume_cartilage_mm3", removed_mm3(voxel::BoneClass::cartilage));
   handling_.write(results);
   heating_.write(results);
+  axis_steadiness_.write(results);
   return results;
 }
 

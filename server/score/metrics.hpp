@@ -37,6 +37,7 @@ class MetricsAccumulator {
   CutAxis cut_axis_;
   Handling handling_;
   Heating heating_;
+  AxisSteadiness axis_steadiness_;
 };
 
 /// metrics.json (proto/metrics.schema.json): what the ticks tell, what the bone tells, and for every metric

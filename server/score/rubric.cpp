@@ -14,6 +14,21 @@ namespace {
 
 using nlohmann::json;
 
+constexpr size_t max_curve_points = 50;
+
+std::vector<CurvePoint> curve_from(JsonReader& reader) {
+  std::vector<CurvePoint> curve;
+  for (JsonReader& entry : reader.objects("curve")) {
+    curve.push_back({entry.number("at"), entry.number("points", 0.0, 100.0)});
+    entry.finish();
+    if (curve.size() > 1 && !(curve.back().at > curve[curve.size() - 2].at))
+      entry.refuse("at", "must be greater than in the point before");
+  }
+  if (curve.size() < 2 || curve.size() > max_curve_points)
+    reader.refuse("curve", "needs 2 to " + std::to_string(max_curve_points) + " points");
+  return curve;
+}
+
 Criterion criterion_from(JsonReader& reader) {
   Criterion c;
   c.metric = reader.text("metric");
@@ -21,14 +36,19 @@ Criterion criterion_from(JsonReader& reader) {
     c.ramp = Ramp{reader.number("none"), reader.number("full")};
     if (c.ramp->none == c.ramp->full) reader.refuse("full", "must differ from none");
   }
+  if (reader.has("curve")) {
+    if (c.ramp) reader.refuse("curve", "stands in place of none and full; give one of them");
+    c.curve = curve_from(reader);
+  }
   if (reader.has("band")) c.band = band_from_json(reader.object("band"));
   c.weight = reader.number_or("weight", 1.0, 0.0, 1e6);
   c.critical = reader.boolean_or("critical", false);
+  c.source = reader.text_or("source", "");
   reader.finish();
   const bool without_limits = c.judged_by().better == Better::report_only;
-  if (!c.ramp && without_limits)
-    reader.refuse("metric",
-                  "is '" + c.metric + "', which has no limits of its own; give none and full, or a band");
+  if (!c.ramp && c.curve.empty() && without_limits)
+    reader.refuse("metric", "is '" + c.metric +
+                                "', which has no limits of its own; give a curve, none and full, or a band");
   if (c.critical && without_limits)
     reader.refuse("critical", "needs limits, and '" + c.metric + "' has none of its own; give a band");
   return c;
@@ -40,8 +60,11 @@ json criterion_json(const Criterion& c) {
     value["none"] = c.ramp->none;
     value["full"] = c.ramp->full;
   }
+  for (const CurvePoint& point : c.curve)
+    value["curve"].push_back({{"at", point.at}, {"points", point.points}});
   if (c.band) value["band"] = band_json(*c.band);
   if (c.critical) value["critical"] = true;
+  if (!c.source.empty()) value["source"] = c.source;
   return value;
 }
 
@@ -91,10 +114,16 @@ json rubric_json(const Rubric& rubric) {
 
 uint64_t rubric_hash(const Rubric& rubric) { return hash_text(rubric_json(rubric).dump()); }
 
-const Rubric& standard_rubric() {
-  static const Rubric standard =
-      rubric_from_json(parse_json(embedded::rubrics::find("standard.json")), "the standard rubric");
-  return standard;
+const Rubric& standard_rubric() { return standard_rubrics().back(); }
+
+std::span<const Rubric> standard_rubrics() {
+  static const std::vector<Rubric> all = [] {
+    std::vector<Rubric> versions;
+    for (const char* file : {"standard-1.json", "standard.json"})
+      versions.push_back(rubric_from_json(parse_json(embedded::rubrics::find(file)), file));
+    return versions;
+  }();
+  return all;
 }
 
 }  // namespace ream::score

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,14 +16,21 @@ struct Ramp {
   double none = 0.0, full = 1.0;
 };
 
-/// One line of a rubric. Without a ramp, points come from the band: 100 up to its pass limit, falling
-/// linearly to 0 at its warn limit; outside of a band `between`, 50.
+/// A value of a metric and what it is worth, 0 to 100 points.
+struct CurvePoint {
+  double at = 0.0, points = 0.0;
+};
+
+/// One line of a rubric. Without a curve or a ramp, points come from the band: 100 up to its pass limit,
+/// falling linearly to 0 at its warn limit; outside of a band `between`, 50.
 struct Criterion {
   std::string metric;  ///< a key of metrics.json whose value is a number
   std::optional<Ramp> ramp;
   std::optional<Band> band;  ///< in place of the catalogue's
   double weight = 1.0;
-  bool critical = false;  ///< whoever fails its band fails, whatever the points
+  bool critical = false;          ///< whoever fails its band fails, whatever the points
+  std::vector<CurvePoint> curve;  ///< straight between its points, which ascend, and level beyond both ends
+  std::string source;             ///< where curve, limits and weight come from; may be empty
 
   /// The band that holds: its own, or the catalogue's.
   Band judged_by() const;
@@ -34,7 +42,7 @@ struct Rubric {
   int version = 1;
   std::string remark;  ///< where its marks come from; may be empty
   std::optional<double> pass_points;
-  /// Below this share of all weights, too little was measured for points to tell pass from fail.
+  /// Below this share of all weights, too little was measured: there are no points, and no result by points.
   double min_measured_percent = 50.0;
   std::vector<Criterion> criteria;
 };
@@ -51,5 +59,8 @@ uint64_t rubric_hash(const Rubric& rubric);
 
 /// The rubric that holds where nobody chose one: proto/rubrics/standard.json.
 const Rubric& standard_rubric();
+/// All versions of it that the program ever came with, version i + 1 at place i: who was judged by one of them
+/// can be judged so again.
+std::span<const Rubric> standard_rubrics();
 
 }  // namespace ream::score

@@ -19,6 +19,16 @@ double points_by(const Ramp& ramp, double value) {
   return 100.0 * std::clamp((value - ramp.none) / (ramp.full - ramp.none), 0.0, 1.0);
 }
 
+double points_by(const std::vector<CurvePoint>& curve, double value) {
+  if (value <= curve.front().at) return curve.front().points;
+  for (size_t i = 1; i < curve.size(); ++i) {
+    const CurvePoint &low = curve[i - 1], &high = curve[i];
+    if (value <= high.at)
+      return low.points + (high.points - low.points) * (value - low.at) / (high.at - low.at);
+  }
+  return curve.back().points;
+}
+
 double points_by(const Band& band, double value) {
   const std::optional<Verdict> judged = verdict(band, value);
   if (judged == Verdict::pass) return 100.0;
@@ -32,8 +42,11 @@ std::string name_of(const std::string& metric) {
   return known ? std::string(known->name) : metric;
 }
 
-/// Points for people: whole ones, but never rounded up to the mark.
-std::string in_words(double points) { return json(std::floor(points * 10.0) / 10.0).dump(); }
+/// To a tenth, as everybody reads them, and never rounded up to the mark. A hair above what is a tenth but
+/// for the sum's own rounding.
+double rounded_down(double points) { return std::floor(points * 10.0 + 1e-6) / 10.0; }
+
+std::string in_words(double points) { return json(rounded_down(points)).dump(); }
 
 CriterionScore scored(const Rubric& rubric, const Criterion& criterion, const json& metrics) {
   CriterionScore result;
@@ -70,7 +83,7 @@ std::optional<Outcome> critical_outcome(Score& score) {
 
 /// What decides by points.
 Outcome points_outcome(const Rubric& rubric, Score& score) {
-  if (!score.points || score.measured_percent < rubric.min_measured_percent) {
+  if (!score.points) {
     score.reasons.push_back("the session says " + in_words(score.measured_percent) +
                             " % of what the rubric weighs, and " + in_words(rubric.min_measured_percent) +
                             " % are needed");
@@ -97,6 +110,7 @@ std::optional<Outcome> outcome_of(const Rubric& rubric, Score& score) {
 }  // namespace
 
 double points_of(const Criterion& criterion, double value) {
+  if (!criterion.curve.empty()) return points_by(criterion.curve, value);
   return criterion.ramp ? points_by(*criterion.ramp, value) : points_by(criterion.judged_by(), value);
 }
 
@@ -111,8 +125,9 @@ Score apply_rubric(const Rubric& rubric, const json& metrics) {
       measured += c.weight;
     }
   }
-  if (measured > 0.0) score.points = sum / measured;
   if (all > 0.0) score.measured_percent = 100.0 * measured / all;
+  if (measured > 0.0 && score.measured_percent >= rubric.min_measured_percent)
+    score.points = rounded_down(sum / measured);
   score.outcome = outcome_of(rubric, score);
   return score;
 }

@@ -22,7 +22,9 @@ enum class Outcome {
 };
 
 struct Score {
-  std::optional<double> points;   ///< weighted mean of the criteria that have points; empty when none has
+  /// Weighted mean of the criteria that have points, rounded down to a tenth: what is shown anywhere. Empty
+  /// where none has, or where too little was measured.
+  std::optional<double> points;
   double measured_percent = 0.0;  ///< share of all weights that the points rest on
   /// Fail where a critical criterion fails or points are short of the mark; undecided where a critical
   /// criterion is missing, or too much is; empty when the rubric has neither mark nor critical criteria.

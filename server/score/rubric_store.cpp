@@ -66,7 +66,8 @@ std::vector<std::string> RubricStore::ids() const {
 
 std::vector<int> RubricStore::versions(const std::string& id) const {
   std::set<int> found;
-  if (id == standard_id) found.insert(1);
+  if (id == standard_id)
+    for (const Rubric& shipped : standard_rubrics()) found.insert(shipped.version);
   std::error_code failed;
   if (is_id(id))
     for (const auto& entry : fs::directory_iterator(folder_ / id, failed))
@@ -87,8 +88,9 @@ Rubric RubricStore::get(const std::string& id, std::optional<int> version) const
     throw Error(ErrorKind::not_found, "rubric '" + id + "' has no version " + std::to_string(requested) +
                                           "; its newest is " + std::to_string(stored.back()));
   std::error_code failed;
-  if (id == standard_id && requested == 1 && !fs::exists(file(id, requested), failed))
-    return standard_rubric();
+  const auto shipped = static_cast<size_t>(requested) - 1;
+  if (id == standard_id && shipped < standard_rubrics().size() && !fs::exists(file(id, requested), failed))
+    return standard_rubrics()[shipped];
   return load_rubric(file(id, requested));
 }
 

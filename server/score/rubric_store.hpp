@@ -9,8 +9,8 @@
 namespace ream::score {
 
 /// The rubrics of a data folder: <folder>/<id>/<version>.json. Versions are never changed or taken away, so
-/// that every score can be had again. The rubric `standard` is always there; its version 1 comes with the
-/// program.
+/// that every score can be had again. The rubric `standard` is always there, with every version that the
+/// program ever came with; a file of the same number stands before it.
 class RubricStore {
  public:
   explicit RubricStore(std::filesystem::path folder) : folder_(std::move(folder)) {}

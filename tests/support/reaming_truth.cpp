@@ -427,6 +427,49 @@ double DepthTruth::depth_mm() const {
   return deepest;
 }
 
+namespace {
+
+/// A trace of one cut: down the plan's axis, to its depth past where the reamer touches the face first.
+std::vector<TracedPose> plan_carried_out(const PlannedReaming& planned, const std::vector<Line>& lines) {
+  double contact = nothing;
+  for (const Line& line : lines) {
+    const double radius = std::hypot(line.x, line.y);
+    if (counts(planned, line) && radius <= planned.reamer.outer_mm)
+      contact = std::min(contact, line.face + planned.reamer.behind_mm(radius));
+  }
+  TracedPose pose;
+  pose.rotation = rotation_with_z_along(planned.plan.axis_direction);
+  pose.apex_mm = planned.plan.entry_mm + (contact + planned.plan.depth_mm) * planned.plan.axis_direction;
+  std::vector<TracedPose> trace(3, pose);
+  trace[1].removed_mm3 = trace[2].removed_mm3 = 1.0;
+  return trace;
+}
+
+void against_the_plan(const PlannedReaming& planned, const std::vector<Line>& lines, ReamingTruth& truth) {
+  const Reamed ideal(planned, plan_carried_out(planned, lines));
+  std::vector<Line> wanted = lines;
+  for (Line& line : wanted) {
+    line.gone = line.removed = 0.0;
+    ideal.look_along(line);
+  }
+  double both = 0.0;
+  const double area = step_mm * step_mm;
+  for (size_t i = 0; i < lines.size(); ++i) {
+    if (!counts(planned, lines[i])) continue;
+    both += area * std::min(lines[i].removed, wanted[i].removed);
+    truth.overreamed_mm3 += area * std::max(0.0, lines[i].removed - wanted[i].removed);
+    truth.underreamed_mm3 += area * std::max(0.0, wanted[i].removed - lines[i].removed);
+  }
+  truth.overlap_percent = 200.0 * both / (2.0 * both + truth.overreamed_mm3 + truth.underreamed_mm3);
+  const Line axis{planned.plan.entry_mm, planned.plan.axis_direction};
+  truth.seating_planned_percent = seating_percent(planned, ideal, axis);
+  ReamingTruth carried_out;
+  along_the_plan(planned, ideal, axis, wanted, carried_out);
+  truth.plate_planned_percent = carried_out.plate_percent;
+}
+
+}  // namespace
+
 ReamingTruth reaming_truth(const PlannedReaming& planned, const std::filesystem::path& trace_csv) {
   const std::vector<TracedPose> trace = read_trace(trace_csv);
   const Reamed reamed(planned, trace);
@@ -446,6 +489,7 @@ ReamingTruth reaming_truth(const PlannedReaming& planned, const std::filesystem:
   along_the_plan(planned, reamed, achieved, lines, truth);
   truth.seating_percent = seating_percent(planned, reamed, achieved);
   fit_rim(planned, reamed, lines, truth);
+  against_the_plan(planned, lines, truth);
   return truth;
 }
 

@@ -80,10 +80,13 @@ void simulate(const SimulateOptions& options, const GlobalOptions& global) {
     return;
   }
   const auto number = [&](const char* key) { return result.metrics.at(key).get<double>(); };
-  std::cout << "removed " << number("removed_volume_mm3") << " mm3, " << number("reaming_depth_mm")
-            << " mm deep, thrust " << number("axial_thrust_mean_n") << " N mean and "
-            << number("axial_thrust_peak_n") << " N peak\n"
-            << "tick mean " << result.timing.at("tick_us").at("mean").get<double>() << " us on "
+  std::cout << "removed " << number("removed_volume_mm3") << " mm3";
+  if (result.metrics.at("reaming_depth_mm").is_number())
+    std::cout << ", " << number("reaming_depth_mm") << " mm deep";
+  if (result.metrics.at("axial_thrust_mean_n").is_number())
+    std::cout << ", thrust " << number("axial_thrust_mean_n") << " N mean and "
+              << number("axial_thrust_peak_n") << " N peak";
+  std::cout << "\ntick mean " << result.timing.at("tick_us").at("mean").get<double>() << " us on "
             << simulation.state.backend.name
             << (simulation.state.backend.choice.empty() ? "" : " (" + simulation.state.backend.choice + ")")
             << '\n'

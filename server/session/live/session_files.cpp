@@ -169,7 +169,8 @@ record::TickReport SessionFiles::add(const record::TickReport& report) {
 score::MetricResults SessionFiles::bone_results() const {
   if (!simulation_.native) return score::missing_bone_results("the bone before the session is not known");
   const voxel::BoneModel& bone = simulation_.bone_case.bone;
-  return score::bone_results(*simulation_.native, {bone.grid, bone.coverage.data()}, metrics_.cut_line(),
+  return score::bone_results(*simulation_.native, score::planned_face(*simulation_.native),
+                             {bone.grid, bone.coverage.data()}, metrics_.cut_line(),
                              simulation_.model.world_from_plan);
 }
 

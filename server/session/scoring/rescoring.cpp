@@ -73,8 +73,8 @@ score::MetricResults Rescorer::bone_results(const record::Recording& recording,
   record::RecordedBone bone(recording, grid, start_->coverage);
   bone.seek(recording.tick_count(), [](const voxel::BrickImage&) {});
   bone.write_to(left);
-  return score::bone_results(*start_->glenoid, {grid, left.data()}, ticks.cut_line(),
-                             start_->world_from_plan);
+  return score::bone_results(*start_->glenoid, score::planned_face(*start_->glenoid), {grid, left.data()},
+                             ticks.cut_line(), start_->world_from_plan);
 }
 
 nlohmann::json Rescorer::metrics(const record::Recording& recording, const Progress& progress) {

@@ -54,18 +54,18 @@ TEST_F(Judging, ScoreSavesWhatItSays) {
   EXPECT_EQ(kept.at("score"), told.at("score"));
   EXPECT_EQ(kept.at("rubric").at("name"), "strict.json");
   const std::string words = succeed({"score", "run"}).out;
-  EXPECT_NE(words.find("Standard, version 1; theatre mode off"), std::string::npos) << words;
+  EXPECT_NE(words.find("Standard, version 2; theatre mode off"), std::string::npos) << words;
 }
 
 TEST_F(Judging, TheNewestRubricOfTheDataFolderHolds) {
   fs::create_directories(folder() / "data/rubrics/standard");
   json mine = json_of("run/score.json").at("rubric");
-  mine["version"] = 2;
+  mine["version"] = 3;
   mine["name"] = "House";
-  write_file_atomically(folder() / "data/rubrics/standard/2.json", mine.dump());
+  write_file_atomically(folder() / "data/rubrics/standard/3.json", mine.dump());
   EXPECT_EQ(answer({"score", "run"}).at("score").at("rubric"), "House");
   EXPECT_EQ(answer({"score", "run", "--rubric", "standard@1"}).at("score").at("rubric"), "Standard");
-  refuse(1, "no version 3", {"score", "run", "--rubric", "standard@3"});
+  refuse(1, "no version 4", {"score", "run", "--rubric", "standard@4"});
 }
 
 TEST_F(Judging, ManySessionsBecomeATableWithItsCodebook) {

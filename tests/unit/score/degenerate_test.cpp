@@ -60,8 +60,8 @@ void expect_sound(const nlohmann::json& metrics, const std::string& what) {
 nlohmann::json scored(const Task& task, const voxel::BoneModel& native, const std::vector<uint8_t>& left,
                       const MetricsAccumulator& ticks) {
   const NativeGlenoid glenoid(task, native);
-  const MetricResults results =
-      bone_results(glenoid, {native.grid, left.data()}, ticks.cut_line(), world_from_plan(task));
+  const MetricResults results = bone_results(glenoid, planned_face(glenoid), {native.grid, left.data()},
+                                             ticks.cut_line(), world_from_plan(task));
   return session_metrics_json(ticks, results, 1.0, nullptr);
 }
 
@@ -218,7 +218,8 @@ TEST(MirroredCase, HasIdenticalScores) {
       line.apex_mm = plan_from_world.point(apex);
       line.direction = plan_from_world.direction(axis);
       line.deepest_mm = line.apex_mm.z();
-      return bone_results(NativeGlenoid(task, bone), {bone.grid, left.data()}, line, world_from_plan(task))
+      const NativeGlenoid native(task, bone);
+      return bone_results(native, planned_face(native), {bone.grid, left.data()}, line, world_from_plan(task))
           .to_json();
     };
     const nlohmann::json of_right = score_of(case_::Side::right), of_left = score_of(case_::Side::left);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "support/seed.hpp"
@@ -31,10 +32,10 @@ TickReport in_the_air(const Pose& world_from_plan, double axial_mm) {
 TEST(Metrics, NothingHappenedIsAllZero) {
   MetricsAccumulator accumulator(0.008, Pose{});
   const MetricResults m = accumulator.results();
-  for (const double value :
-       {*m.value("removed_volume_mm3"), *m.value("axial_thrust_mean_n"), *m.value("axial_thrust_peak_n"),
-        *m.value("duration_s"), *m.value("contact_time_s")})
+  for (const double value : {*m.value("removed_volume_mm3"), *m.value("axial_thrust_peak_n"),
+                             *m.value("duration_s"), *m.value("contact_time_s"), *m.value("idle_time_s")})
     EXPECT_EQ(value, 0.0);
+  EXPECT_FALSE(m.value("axial_thrust_mean_n")) << "a mean of nothing";
 }
 
 TEST(Metrics, VolumesAddUpByClass) {
@@ -51,18 +52,27 @@ TEST(Metrics, VolumesAddUpByClass) {
   EXPECT_DOUBLE_EQ(*m.value("removed_volume_mm3"), 4.8);
 }
 
-TEST(Metrics, ThrustIsOfTicksInContactWithTheSpindleOn) {
+TEST(Metrics, MeanThrustIsOfPressedCuttingPeakOfContactWithTheSpindleOn) {
   MetricsAccumulator accumulator(0.008, Pose{});
   accumulator.add(in_the_air(Pose{}, -1.0));
-  for (const double thrust_n : {10.0, 40.0, 25.0}) accumulator.add(contact(Pose{}, 0.0, thrust_n));
+  for (const double thrust_n : {10.0, 40.0, 25.0}) {
+    TickReport cut = contact(Pose{}, 0.0, thrust_n);
+    cut.cutting = true;
+    accumulator.add(cut);
+  }
+  TickReport light = contact(Pose{}, 0.0, 4.9);
+  light.cutting = true;
+  accumulator.add(light);
+  accumulator.add(contact(Pose{}, 0.0, 50.0));  // pressed, and too little to cut
   TickReport resting = contact(Pose{}, 0.0, 90.0, false);
   resting.spindle_on = false;
   accumulator.add(resting);
   const MetricResults m = accumulator.results();
   EXPECT_DOUBLE_EQ(*m.value("axial_thrust_mean_n"), 25.0);
-  EXPECT_DOUBLE_EQ(*m.value("axial_thrust_peak_n"), 40.0);
-  EXPECT_DOUBLE_EQ(*m.value("duration_s"), 5e-3);
-  EXPECT_DOUBLE_EQ(*m.value("contact_time_s"), 4e-3);
+  EXPECT_NEAR(*m.value("axial_thrust_sd_n"), std::sqrt(150.0), 1e-6) << "of 10, 40 and 25 N";
+  EXPECT_DOUBLE_EQ(*m.value("axial_thrust_peak_n"), 50.0);
+  EXPECT_DOUBLE_EQ(*m.value("duration_s"), 7e-3);
+  EXPECT_DOUBLE_EQ(*m.value("contact_time_s"), 6e-3);
 }
 
 /// Thrust and advance of a straight line: `steps` ticks from (from_n, from_mm) to (to_n, to_mm).
@@ -130,7 +140,7 @@ TEST(MetricsJson, HasTheKeysThatScriptsRelyOn) {
   const nlohmann::json json = session_metrics_json(accumulator, {}, 26.0, &grid_hash);
   for (const char* key :
        {"removed_volume_mm3", "removed_volume_cortical_mm3", "removed_volume_cancellous_mm3",
-        "axial_thrust_mean_n", "axial_thrust_peak_n", "duration_s", "force_scale"}) {
+        "axial_thrust_peak_n", "duration_s", "force_scale"}) {
     ASSERT_TRUE(json.contains(key)) << key;
     EXPECT_TRUE(json[key].is_number()) << key;
   }

@@ -29,7 +29,7 @@ TEST(RubricScore, IsTheWeightedMeanOfWhatIsSaid) {
                            {{"metric", "depth_mm"}, {"none", 0}, {"full", 2}},
                            {{"metric", "missing_n"}, {"none", 0}, {"full", 1}, {"weight", 4}}});
   const Score score = apply_rubric(r, metrics);
-  EXPECT_DOUBLE_EQ(*score.points, (3 * 50.0 + 75.0) / 4.0);
+  EXPECT_DOUBLE_EQ(*score.points, 56.2) << "(3 * 50 + 75) / 4 = 56.25, rounded down to a tenth";
   EXPECT_DOUBLE_EQ(score.measured_percent, 50.0);
   EXPECT_FALSE(score.criteria[2].points) << "no points for what the session does not say";
   EXPECT_EQ(score.criteria[2].missing_reason, "nobody knows");
@@ -65,6 +65,19 @@ TEST(RubricScore, BandsGivePointsAndVerdicts) {
                                 {"band", {{"better", "less"}, {"pass", 104.0}, {"warn", 104.0}}}};
   EXPECT_EQ(at(sharp, 104.0), std::pair(100.0, std::optional(Verdict::pass)));
   EXPECT_EQ(at(sharp, 104.5), std::pair(0.0, std::optional(Verdict::fail)));
+}
+
+TEST(RubricScore, ACurveIsStraightBetweenItsPointsAndLevelBeyond) {
+  const Rubric r = rubric(nlohmann::json::array({{{"metric", "thrust_n"},
+                                                  {"curve",
+                                                   {{{"at", 15}, {"points", 0}},
+                                                    {{"at", 35}, {"points", 100}},
+                                                    {{"at", 70}, {"points", 100}},
+                                                    {{"at", 104}, {"points", 20}}}}}}));
+  const std::pair<double, double> expected[] = {{-1.0, 0.0},   {15.0, 0.0},  {25.0, 50.0},  {35.0, 100.0},
+                                                {50.0, 100.0}, {87.0, 60.0}, {104.0, 20.0}, {500.0, 20.0}};
+  for (const auto& [value, points] : expected)
+    EXPECT_DOUBLE_EQ(points_of(r.criteria[0], value), points) << value;
 }
 
 TEST(RubricScore, ABandOfTheRubricStandsBeforeTheCatalogues) {
@@ -107,8 +120,8 @@ TEST(RubricScore, PointsDecideByTheMark) {
 TEST(RubricScore, TooLittleSaidIsNotDecided) {
   const Rubric r = rubric({limited("a_mm", false, 2.0), limited("b_mm", false, 3.0)}, 70.0);
   const Score one = apply_rubric(r, {{"a_mm", 0.0}, {"b_mm", nullptr}});
-  EXPECT_DOUBLE_EQ(*one.points, 100.0);
-  EXPECT_EQ(one.outcome, Outcome::undecided) << "40 % of the weights is less than half";
+  EXPECT_FALSE(one.points) << "40 % of the weights is less than half";
+  EXPECT_EQ(one.outcome, Outcome::undecided);
   EXPECT_EQ(apply_rubric(r, {{"a_mm", nullptr}, {"b_mm", 0.0}}).outcome, Outcome::pass);
   const Score none = apply_rubric(r, {{"a_mm", nullptr}, {"b_mm", nullptr}});
   EXPECT_FALSE(none.points);

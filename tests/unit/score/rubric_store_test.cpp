@@ -5,6 +5,7 @@
 #include <fstream>
 #include <thread>
 
+#include "core/file.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -18,7 +19,7 @@ class RubricStoreTest : public testing::Test {
   Rubric rubric(double weight) const {
     Rubric r;
     r.name = "First year";
-    r.criteria.push_back({"duration_s", Ramp{600.0, 60.0}, std::nullopt, weight, false});
+    r.criteria.push_back({"duration_s", Ramp{600.0, 60.0}, std::nullopt, weight, false, {}, ""});
     return r;
   }
 
@@ -44,11 +45,29 @@ TEST_F(RubricStoreTest, AChangeMakesANewVersionAndOldOnesAreKept) {
 
 TEST_F(RubricStoreTest, StandardMayBeChangedLikeAnyOther) {
   Rubric mine = standard_rubric();
-  EXPECT_EQ(store_.save("standard", mine).version, 1) << "nothing changed";
+  const int shipped = mine.version;
+  EXPECT_EQ(store_.save("standard", mine).version, shipped) << "nothing changed";
   mine.pass_points = 80.0;
-  EXPECT_EQ(store_.save("standard", mine).version, 2);
+  EXPECT_EQ(store_.save("standard", mine).version, shipped + 1);
   EXPECT_EQ(store_.get("standard").pass_points, 80.0);
-  EXPECT_EQ(store_.get("standard", 1).pass_points, standard_rubric().pass_points);
+  EXPECT_EQ(store_.get("standard", shipped).pass_points, standard_rubric().pass_points);
+}
+
+TEST_F(RubricStoreTest, EveryStandardThatWasEverShippedCanBeHadAgain) {
+  for (size_t i = 0; i < standard_rubrics().size(); ++i) {
+    const auto version = static_cast<int>(i) + 1;
+    EXPECT_EQ(standard_rubrics()[i].version, version);
+    EXPECT_EQ(rubric_hash(store_.get("standard", version)), rubric_hash(standard_rubrics()[i]));
+  }
+  EXPECT_EQ(rubric_hash(store_.get("standard")), rubric_hash(standard_rubric()));
+}
+
+TEST_F(RubricStoreTest, AStandardOfTheHouseStandsBeforeTheShippedOneOfItsNumber) {
+  Rubric house = rubric(3.0);
+  house.version = 2;
+  std::filesystem::create_directories(folder_.path() / "rubrics/standard");
+  write_json_file(folder_.path() / "rubrics/standard/2.json", rubric_json(house));
+  EXPECT_EQ(store_.get("standard", 2).name, house.name);
 }
 
 TEST_F(RubricStoreTest, IsFoundByIdVersionOrFile) {

@@ -51,6 +51,11 @@ constexpr Figure figures[] = {
     {"removed_volume_mm3", &ReamingTruth::volume_mm3, 0.0, 0.005},
     {"seating_percent", &ReamingTruth::seating_percent, 1.0},
     {"plate_preserved_percent", &ReamingTruth::plate_percent, 2.0},
+    {"seating_planned_percent", &ReamingTruth::seating_planned_percent, 1.0},
+    {"plate_planned_percent", &ReamingTruth::plate_planned_percent, 2.0},
+    {"overreamed_volume_mm3", &ReamingTruth::overreamed_mm3, 1.0, 0.02},
+    {"underreamed_volume_mm3", &ReamingTruth::underreamed_mm3, 1.0, 0.02},
+    {"plan_overlap_percent", &ReamingTruth::overlap_percent, 0.5},
 };
 constexpr size_t figure_count = std::size(figures);
 

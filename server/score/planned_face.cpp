@@ -1,0 +1,100 @@
+#include "score/planned_face.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "score/alignment.hpp"
+
+namespace ream::score {
+namespace {
+
+constexpr const char* not_planned = "the case has no plan, or its reamer does not touch the face";
+
+/// Depth of the planned reamer's front on a ray, mm; nothing beyond its rim.
+double front_mm(const NativeGlenoid& native, size_t ray, double apex_mm) {
+  const double radius_mm = std::hypot(native.rays().x_mm(ray), native.rays().y_mm(ray));
+  return radius_mm > native.reamer().outer_mm() ? -no_surface_mm
+                                                : apex_mm - native.reamer().behind_mm(radius_mm);
+}
+
+AchievedFace face_left_by(const NativeGlenoid& native, double apex_mm) {
+  AchievedFace face;
+  for (size_t ray = 0; ray < native.rays().size(); ++ray) {
+    const double surface = native.surface_mm()[ray], gone = native.exit_mm()[ray];
+    const double left = std::max(surface, front_mm(native, ray, apex_mm));
+    const bool on_face = native.face()[ray] != 0;
+    face.removed_mm.push_back(on_face ? std::min(left, gone) - surface : 0.0);
+    face.surface_mm.push_back(!on_face ? surface : left < gone ? left : no_surface_mm);
+  }
+  return face;
+}
+
+}  // namespace
+
+PlannedFace planned_face(const NativeGlenoid& native) {
+  PlannedFace planned;
+  const auto& plan = native.task().plan;
+  const std::optional<double> contact = plan ? first_contact_mm(native) : std::nullopt;
+  if (!contact) return planned;
+  CutLine line;
+  line.apex_mm.z() = line.deepest_mm = *contact + plan->depth_mm;
+  AchievedFace face = face_left_by(native, line.deepest_mm);
+  const Component component(native, face, line);
+  if (component.seated()) planned.seating_percent = 100.0 * component.supported_share();
+  planned.plate_percent = plate_preserved_percent(native, face.removed_mm, component.footprint());
+  planned.removed_mm = std::move(face.removed_mm);
+  return planned;
+}
+
+std::optional<double> plate_preserved_percent(const NativeGlenoid& native,
+                                              const std::vector<double>& removed_mm,
+                                              const std::vector<size_t>& footprint) {
+  if (footprint.empty()) return std::nullopt;
+  const SubchondralPlate& plate = native.plate();
+  size_t preserved = 0;
+  for (const size_t ray : footprint) {
+    const double top = native.subchondral_mm()[ray];
+    const double whole = std::min(plate.thickness_mm[ray], native.exit_mm()[ray] - top);
+    const double left = top + whole - std::max(top, native.surface_mm()[ray] + removed_mm[ray]);
+    preserved += left >= 0.5 * whole;
+  }
+  return 100.0 * static_cast<double>(preserved) / static_cast<double>(footprint.size());
+}
+
+void measure_planned_face(const PlannedFace& planned, MetricResults& results) {
+  results.set_or_missing("seating_planned_percent", planned.seating_percent, not_planned);
+  results.set_or_missing("plate_planned_percent", planned.plate_percent, not_planned);
+}
+
+void measure_against_plan(const NativeGlenoid& native, const PlannedFace& planned, const AchievedFace& face,
+                          MetricResults& results) {
+  if (!planned.known()) {
+    for (const char* key : {"overreamed_volume_mm3", "underreamed_volume_mm3", "plan_overlap_percent",
+                            "seating_short_percent", "plate_lost_percent"})
+      results.set_missing(key, not_planned);
+    return;
+  }
+  double both_mm = 0.0, over_mm = 0.0, under_mm = 0.0;
+  for (size_t ray = 0; ray < native.rays().size(); ++ray) {
+    const double achieved = face.removed_mm[ray], wanted = planned.removed_mm[ray];
+    both_mm += std::min(achieved, wanted);
+    over_mm += std::max(0.0, achieved - wanted);
+    under_mm += std::max(0.0, wanted - achieved);
+  }
+  const double area_mm2 = native.rays().cell_area_mm2(), all_mm = 2.0 * both_mm + over_mm + under_mm;
+  results.set("overreamed_volume_mm3", over_mm * area_mm2);
+  results.set("underreamed_volume_mm3", under_mm * area_mm2);
+  results.set_or_missing("plan_overlap_percent",
+                         all_mm > 0.0 ? std::optional(200.0 * both_mm / all_mm) : std::nullopt,
+                         "neither plan nor session removes anything of the face");
+  const auto short_of = [&](const char* key, const char* achieved_key, const std::optional<double>& wanted) {
+    const std::optional<double> achieved = results.value(achieved_key);
+    std::optional<double> missing;
+    if (achieved && wanted) missing = std::max(0.0, *wanted - *achieved);
+    results.set_or_missing(key, missing, achieved ? not_planned : "the achieved one cannot be measured");
+  };
+  short_of("seating_short_percent", "seating_percent", planned.seating_percent);
+  short_of("plate_lost_percent", "plate_preserved_percent", planned.plate_percent);
+}
+
+}  // namespace ream::score

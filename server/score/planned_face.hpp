@@ -1,0 +1,35 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "score/component.hpp"
+#include "score/metric_results.hpp"
+
+namespace ream::score {
+
+/// What the plan makes of a glenoid, along the rays of its NativeGlenoid: the reamer has gone down the
+/// planned axis to the planned depth, and the component is seated there. Made once a session.
+struct PlannedFace {
+  /// Of every ray, mm; 0 off the face. Empty without a plan, or where the planned reamer does not touch it.
+  std::vector<double> removed_mm;
+  std::optional<double> seating_percent, plate_percent;
+
+  bool known() const { return !removed_mm.empty(); }
+};
+
+PlannedFace planned_face(const NativeGlenoid& native);
+
+/// Share of a footprint in which at least half of the subchondral plate is left, percent; empty without rays.
+std::optional<double> plate_preserved_percent(const NativeGlenoid& native,
+                                              const std::vector<double>& removed_mm,
+                                              const std::vector<size_t>& footprint);
+
+/// What the plan itself reaches: known before the session begins.
+void measure_planned_face(const PlannedFace& planned, MetricResults& results);
+
+/// What was removed against what the plan removes, over the face; seating and plate in `results` against the
+/// planned ones.
+void measure_against_plan(const NativeGlenoid& native, const PlannedFace& planned, const AchievedFace& face,
+                          MetricResults& results);
+
+}  // namespace ream::score

@@ -1,0 +1,47 @@
+#include "score/spindle_use.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/clock.hpp"
+#include "core/units.hpp"
+
+namespace ream::score {
+
+void SpindleUse::add(const record::TickReport& r) {
+  if (r.paused) return;
+  standing_press_ticks_ += r.engaged && !r.spindle_on && r.thrust_n >= pressing_n;
+  air_spin_ticks_ += !r.engaged && r.spindle_on;
+  restarts_ += r.spindle_on && !turning_ && turned_;
+  turning_ = r.spindle_on;
+  turned_ = turned_ || r.spindle_on;
+  if (!r.engaged) {
+    ++ticks_off_bone_;
+    return;
+  }
+  if (touched_) idle_ticks_ += ticks_off_bone_;
+  touched_ = true;
+  ticks_off_bone_ = 0;
+}
+
+void SpindleUse::write(MetricResults& results) const {
+  results.set_exact("standing_press_time_s", static_cast<double>(standing_press_ticks_) * tick_s);
+  results.set_exact("air_spin_time_s", static_cast<double>(air_spin_ticks_) * tick_s);
+  results.set_exact("idle_time_s", static_cast<double>(idle_ticks_) * tick_s);
+  results.set("spindle_restarts", restarts_);
+}
+
+void AxisSteadiness::add(const record::TickReport& r, const Pose& bone_from_tool) {
+  if (!is_pressed_cut(r)) return;
+  ++ticks_;
+  sum_ += bone_from_tool.rotation.col(2);
+}
+
+void AxisSteadiness::write(MetricResults& results) const {
+  if (ticks_ == 0) return results.set_missing("axis_sd_deg", never_cut);
+  // The mean square of the distance of unit vectors from their mean direction.
+  const double length = std::min(1.0, sum_.norm() / static_cast<double>(ticks_));
+  results.set("axis_sd_deg", degrees_from_radians(std::sqrt(2.0 * (1.0 - length))));
+}
+
+}  // namespace ream::score
