@@ -3,6 +3,7 @@
 // another or force output is disabled. The hand moves on 1 ms with each frame.
 #include <poll.h>
 
+#include <chrono>
 #include <cstring>
 #include <thread>
 
@@ -18,6 +19,13 @@ constexpr unsigned invalid_device = 0xFFFFFFFF, the_device = 7;
 constexpr unsigned comm_error = 0x0302, bad_handle = 0x0104, frame_error = 0x0402,
                    exceeded_max_force = 0x0201;
 
+/// A frame that comes later than this was late for everybody: a busy machine held the servo loop up.
+constexpr double stall_s = 0.05, remembered_s = 1.0;
+
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
 struct ErrorInfo {
   unsigned code;
   int internal_code;
@@ -31,11 +39,22 @@ struct Device {
   unsigned (*callback)(void*) = nullptr;
   void* user = nullptr;
   std::array<double, 3> force_n{}, torque_n_mm{};
+  std::atomic<double> last_frame_s{0.0}, last_stall_s{-remembered_s};
   std::thread servo_loop;
 
+  /// Whether frames have come in time lately.
+  bool keeps_time() const {
+    const double now = now_s();
+    return now - last_frame_s < stall_s && now - last_stall_s > remembered_s;
+  }
+
   void loop() {
+    last_frame_s = now_s();
     while (running) {
       ::poll(nullptr, 0, 1);
+      const double now = now_s();
+      if (now - last_frame_s > stall_s) last_stall_s = now;
+      last_frame_s = now;
       if (hardware.fault == HardwareFault::silent) continue;
       if (hardware.fault == HardwareFault::slow) ::poll(nullptr, 0, 15);
       if (callback != nullptr && callback(user) == 0) callback = nullptr;
@@ -86,7 +105,7 @@ void hdDisable(unsigned ability) {
   if (ability != 0x4000) return;
   hardware().called("hdDisable HD_FORCE_OUTPUT");
   // A servo loop that stands still cannot be told a last frame.
-  const bool answers = hardware().fault == HardwareFault::none;
+  const bool answers = hardware().fault == HardwareFault::none && device().keeps_time();
   if (answers && hardware().force_now_n() > 0.0)
     hardware().refused("its force is switched off while it pushes");
   device().forced = false;
