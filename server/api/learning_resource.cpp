@@ -43,7 +43,7 @@ bool is_named(const session::SessionRecord& record, const std::string& name) {
   return record.request.trainee_id.empty() && record.request.trainee == name;
 }
 
-/// Those that have left metrics.
+/// Those that have left metrics, and in which somebody reamed.
 std::vector<session::EndedSession> attempts_of(const Services& services, const net::Request& request) {
   std::vector<session::EndedSession> attempts;
   const std::string name = query_text(request, "name");
@@ -54,9 +54,12 @@ std::vector<session::EndedSession> attempts_of(const Services& services, const n
     const fs::path folder = services.sessions.folder_of(id);
     std::error_code failed;
     if (is_live(record.status.state) || !fs::exists(session::metrics_json(folder), failed)) continue;
-    attempts.push_back({id,
-                        {{"created_utc", record.request.created_utc}, {"theatre", record.request.theatre}},
-                        read_json_file(session::metrics_json(folder))});
+    session::EndedSession ended{id,
+                                {{"created_utc", record.request.created_utc},
+                                 {"theatre", record.request.theatre},
+                                 {"device", record.request.device}},
+                                read_json_file(session::metrics_json(folder))};
+    if (session::is_attempt(ended)) attempts.push_back(std::move(ended));
   }
   return attempts;
 }

@@ -49,6 +49,13 @@ std::string head(const Report& report) {
          (reasons.empty() ? "" : element("ul", reasons, "reasons")) + facts(report.facts);
 }
 
+std::string advice(const Report& report) {
+  std::string lines;
+  for (const Advice& each : report.advice) lines += text_element("li", each.words);
+  return lines.empty() ? ""
+                       : element("section", text_element("h2", "Next time") + element("ol", lines, "advice"));
+}
+
 std::string figure(const Picture& picture) {
   std::string labels;
   for (const PictureLabel& label : picture.labels) {
@@ -184,7 +191,7 @@ std::string html_of(const Report& report) {
          "img-src data:\">\n" +
          text_element("title", report.title + " \u2013 " + report.subtitle) + "<style>\n" + style +
          "</style>\n</head>\n<body>\n" +
-         element("main", head(report) + pictures(report) + metrics(report) + course(report) +
+         element("main", head(report) + advice(report) + pictures(report) + metrics(report) + course(report) +
                              learning(report) + notes(report)) +
          "</body>\n</html>\n";
 }

@@ -19,7 +19,7 @@ std::string verdict_of(const std::optional<Outcome>& outcome) {
 /// Points that rest on little say so.
 std::string points_in_words(const score::Score& score) {
   if (!score.points) return "";
-  const std::string points = decimal(std::floor(*score.points), 0) + " of 100 points";
+  const std::string points = decimal(*score.points, 1) + " of 100 points";
   if (score.measured_percent >= 99.95) return points;
   return points + ", on " + decimal(std::floor(score.measured_percent), 0) + "\u00a0% of the rubric";
 }
@@ -109,6 +109,7 @@ Report make_report(const Material& m) {
   report.judged_by = "Rubric \u201c" + m.rubric.name + "\u201d, version " + std::to_string(m.rubric.version) +
                      "; theatre mode " + (m.session.theatre ? "on" : "off");
   report.reasons = m.score.reasons;
+  report.advice = advice_of(score::score_json(m.rubric, m.score), m.metrics);
   report.pictures = m.pictures;
   report.why_no_pictures = m.why_no_pictures;
   for (const Picture& picture : m.pictures) report.has_maps = report.has_maps || picture.is_map;

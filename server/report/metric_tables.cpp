@@ -109,7 +109,7 @@ MetricLine line_of(const score::Metric& metric, const Material& material, std::v
   line.mark = mark_of(band, value);
   if (criterion) {
     line.critical = criterion->criterion.critical;
-    if (criterion->points)
+    if (criterion->points && criterion->criterion.weight > 0.0)
       line.points = decimal(*criterion->points, 0) + " \u00d7 " + shortest(criterion->criterion.weight);
   }
   line.source = footnote(metric, sources);

@@ -54,6 +54,7 @@ class PdfPages {
   void head();
   double result_box(double left, double top, double width);
   void facts(const std::vector<Fact>& list, int columns, double name_width);
+  void advice();
   void pictures();
   void picture(const Picture& picture, double left, double width);
   void legend();
@@ -85,6 +86,7 @@ PdfPages::PdfPages(PdfSheet& sheet, const Report& report, int of_pages)
 
 int PdfPages::lay_out() {
   head();
+  advice();
   pictures();
   metrics();
   course();
@@ -166,6 +168,17 @@ void PdfPages::head() {
   }
   y_ = std::max(y_, top + box) + 12.0;
   facts(report_.facts, 2, 68.0);
+}
+
+void PdfPages::advice() {
+  if (report_.advice.empty()) return;
+  small_heading("Next time", 14.0);
+  int number = 0;
+  for (const Advice& each : report_.advice) {
+    need(sheet_.height_of(text_width - 14.0, each.words, body));
+    sheet_.paragraph(margin, y_, 12.0, std::to_string(++number) + ".", body);
+    y_ += sheet_.paragraph(margin + 14.0, y_, text_width - 14.0, each.words, body) + 2.0;
+  }
 }
 
 void PdfPages::facts(const std::vector<Fact>& list, int columns, double name_width) {

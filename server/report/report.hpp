@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "report/advice.hpp"
 #include "report/chart.hpp"
 #include "report/material.hpp"
 
@@ -34,9 +35,10 @@ struct Report {
   std::vector<Fact> facts;
   std::optional<score::Outcome> outcome;
   std::string verdict;    ///< "Passed", "Not passed", "Not decided", "Not judged"
-  std::string points;     ///< "82 of 100 points"; empty without any
+  std::string points;     ///< "82.0 of 100 points"; empty without any
   std::string judged_by;  ///< the rubric, and theatre mode
   std::vector<std::string> reasons;
+  std::vector<Advice> advice;  ///< what to do better next time, most important first
   std::vector<Picture> pictures;
   std::string why_no_pictures;
   bool has_maps = false;  ///< a legend of deviations is needed

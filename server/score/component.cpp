@@ -40,6 +40,7 @@ AchievedRay achieved_ray(const NativeGlenoid& native, const SurfaceFinder& left,
 AchievedFace achieved_face(const NativeGlenoid& native, const CoverageView& left) {
   const SurfaceFinder finder(left);
   AchievedFace face;
+  face.voxel_mm = left.grid.spacing_mm.maxCoeff();
   for (size_t ray = 0; ray < native.rays().size(); ++ray) {
     const AchievedRay now = achieved_ray(native, finder, ray);
     face.surface_mm.push_back(now.surface_mm);

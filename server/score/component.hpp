@@ -16,6 +16,7 @@ struct AchievedFace {
   std::vector<double> surface_mm;
   /// Depth of bone and cartilage removed along the ray, mm; 0 off the face.
   std::vector<double> removed_mm;
+  double voxel_mm = 0.0;  ///< of the bone that it was measured on; 0: of formulas
 };
 
 /// One ray of it.

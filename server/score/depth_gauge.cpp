@@ -11,13 +11,15 @@ constexpr size_t deepest_places = 12;  // around so many of them all rays are lo
 constexpr double near_deepest_mm =
     0.1;  // rays that are this much less deep may have a deeper one beside them
 
-/// Whether a ray and all four beside it meet what is left of the face: along the edge that a cut leaves where
-/// it comes out through the wall, the surface is rounded off.
+/// Whether a ray and all four beside it meet what is left of the face, more than a voxel of it: along the
+/// edge that a cut leaves where it comes out through the wall, the surface is rounded off, and of a wedge
+/// thinner than a voxel the coverage tells nothing.
 template <typename SurfaceOf>
-bool is_over_bone(const NativeGlenoid& native, size_t ray, SurfaceOf surface_of) {
-  const auto meets = [&](int i) {
-    return i >= 0 && native.face()[static_cast<size_t>(i)] &&
-           surface_of(static_cast<size_t>(i)) != no_surface_mm;
+bool is_over_bone(const NativeGlenoid& native, size_t ray, double voxel_mm, SurfaceOf surface_of) {
+  const auto meets = [&](int beside) {
+    if (beside < 0) return false;
+    const auto i = static_cast<size_t>(beside);
+    return native.face()[i] && surface_of(i) + voxel_mm < native.exit_mm()[i];
   };
   const RayLattice& rays = native.rays();
   return meets(static_cast<int>(ray)) && meets(rays.neighbour(ray, 1, 0)) &&
@@ -60,7 +62,7 @@ GreatestDepth greatest_depth(const NativeGlenoid& native, const AchievedFace& fa
       greatest.past_subchondral_mm = std::max(greatest.past_subchondral_mm, past);
     };
     take(anywhere);
-    if (is_over_bone(native, ray, surface_of)) take(over_bone);
+    if (is_over_bone(native, ray, face.voxel_mm, surface_of)) take(over_bone);
   }
   return over_bone.removed_mm > 0.0 ? over_bone : anywhere;
 }
@@ -73,6 +75,7 @@ DepthGauge::DepthGauge(std::shared_ptr<const NativeGlenoid> native) : native_(st
 double DepthGauge::measure(const CoverageView& left) {
   if (coarse_.empty()) return 0.0;
   RayProbe probe(*native_, left);
+  const double voxel_mm = left.grid.spacing_mm.maxCoeff();
   const auto surface_of = [&](size_t ray) { return probe.at(ray).surface_mm; };
   std::vector<size_t> reamed;
   double deepest_mm = 0.0;
@@ -81,7 +84,7 @@ double DepthGauge::measure(const CoverageView& left) {
     const double removed_mm = probe.at(ray).removed_mm;
     if (removed_mm < reamed_mm) return;
     reamed.push_back(ray);
-    if (removed_mm <= deepest_mm || !is_over_bone(*native_, ray, surface_of)) return;
+    if (removed_mm <= deepest_mm || !is_over_bone(*native_, ray, voxel_mm, surface_of)) return;
     deepest_mm = removed_mm;
     deepest_ = ray;
   };
@@ -98,7 +101,7 @@ double DepthGauge::measure(const CoverageView& left) {
   const auto look = [&](size_t ray) {
     if (!native_->face()[ray] || probe.at(ray).removed_mm < reamed_mm) return;
     anywhere = std::max(anywhere, probe.at(ray).removed_mm);
-    if (probe.at(ray).removed_mm > over_bone && is_over_bone(*native_, ray, surface_of))
+    if (probe.at(ray).removed_mm > over_bone && is_over_bone(*native_, ray, voxel_mm, surface_of))
       over_bone = probe.at(ray).removed_mm;
   };
   for (size_t place = 0; place < reamed.size(); ++place) {

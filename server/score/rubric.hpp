@@ -28,9 +28,10 @@ struct Criterion {
   std::optional<Ramp> ramp;
   std::optional<Band> band;  ///< in place of the catalogue's
   double weight = 1.0;
-  bool critical = false;          ///< whoever fails its band fails, whatever the points
-  std::vector<CurvePoint> curve;  ///< straight between its points, which ascend, and level beyond both ends
-  std::string source;             ///< where curve, limits and weight come from; may be empty
+  bool critical = false;  ///< whoever fails its band fails, whatever the points
+  std::vector<CurvePoint> curve =
+      {};                   ///< straight between its points, which ascend, and level beyond both ends
+  std::string source = {};  ///< where curve, limits and weight come from; may be empty
 
   /// The band that holds: its own, or the catalogue's.
   Band judged_by() const;
@@ -59,8 +60,8 @@ uint64_t rubric_hash(const Rubric& rubric);
 
 /// The rubric that holds where nobody chose one: proto/rubrics/standard.json.
 const Rubric& standard_rubric();
-/// All versions of it that the program ever came with, version i + 1 at place i: who was judged by one of them
-/// can be judged so again.
+/// All versions of it that the program ever came with, version i + 1 at place i: who was judged by one of
+/// them can be judged so again.
 std::span<const Rubric> standard_rubrics();
 
 }  // namespace ream::score

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "report/advice.hpp"
 #include "report/metric_tables.hpp"
 #include "report/number_text.hpp"
 #include "score/metric_catalogue.hpp"
@@ -63,6 +64,9 @@ void print_score(const std::string& session, const json& document) {
             << ", version " << score.at("version") << "; theatre mode "
             << (document.at("theatre") == true ? "on" : "off") << ")\n";
   for (const json& reason : score.at("reasons")) std::cout << "  " << reason.get<std::string>() << '\n';
+  const std::vector<report::Advice> advice = report::advice_of(score, document.at("metrics"));
+  if (!advice.empty()) std::cout << "  next time:\n";
+  for (const report::Advice& each : advice) std::cout << "    " << each.words << '\n';
   print_metrics(document.at("metrics"), score);
   print_missing(document.at("metrics"));
   if (const json& benchmark = document.at("benchmark"); !benchmark.is_null())

@@ -100,8 +100,9 @@ nlohmann::json learning_of_all(const std::vector<Judged>& all, const session::Ju
                                const ScoreOptions& options) {
   std::vector<score::LearningPoint> points;
   for (const Judged& one : all)
-    points.push_back(
-        session::learning_point(one.table, score::apply_rubric(judge.rubric, one.table.metrics)));
+    if (session::is_attempt(one.table))
+      points.push_back(
+          session::learning_point(one.table, score::apply_rubric(judge.rubric, one.table.metrics)));
   return score::learning_json(score::learning_curve(options.cusum, std::move(points)));
 }
 

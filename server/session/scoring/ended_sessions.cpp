@@ -52,6 +52,11 @@ std::string trainee_of(const nlohmann::json& session) {
   return "";
 }
 
+bool is_attempt(const EndedSession& session) {
+  return session.session.value("device", "script") != "script" &&
+         session.value("removed_volume_mm3") != std::optional(0.0);
+}
+
 score::LearningPoint learning_point(const EndedSession& session, const score::Score& score) {
   score::LearningPoint point;
   point.session = session.id;
@@ -68,8 +73,9 @@ score::LearningCurve learning_of(const std::vector<EndedSession>& sessions, cons
   for (const EndedSession& session : sessions) {
     std::error_code failed;
     if (!std::filesystem::exists(metrics_json(session.folder), failed)) continue;
-    const score::Score score = score::apply_rubric(rubric, read_json_file(metrics_json(session.folder)));
-    points.push_back(learning_point(session, score));
+    EndedSession read = session;
+    read.metrics = read_json_file(metrics_json(session.folder));
+    if (is_attempt(read)) points.push_back(learning_point(read, score::apply_rubric(rubric, read.metrics)));
   }
   return score::learning_curve(parameters, std::move(points));
 }

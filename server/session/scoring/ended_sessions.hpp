@@ -22,10 +22,15 @@ std::vector<EndedSession> sessions_of_trainee(const std::vector<EndedSession>& s
 /// The word by which a session's trainee is known best: user id, else code, else name; empty for nobody.
 std::string trainee_of(const nlohmann::json& session);
 
+/// Whether it says how well somebody reams: a person held the device, and bone was cut. Demos and scripted
+/// runs count for nobody.
+bool is_attempt(const EndedSession& session);
+
 /// Its cusum stays empty.
 score::LearningPoint learning_point(const EndedSession& session, const score::Score& score);
 
-/// Sessions as their metrics.json has them, judged by one rubric. A session without metrics.json is left out.
+/// Sessions as their metrics.json has them, judged by one rubric. A session without metrics.json is left out,
+/// and so is what is no attempt.
 score::LearningCurve learning_of(const std::vector<EndedSession>& sessions, const score::Rubric& rubric,
                                  const score::CusumParameters& parameters);
 

@@ -6,6 +6,7 @@
 #include "core/json.hpp"
 #include "core/log.hpp"
 #include "core/version.hpp"
+#include "report/advice.hpp"
 #include "score/metric_results.hpp"
 #include "score/rubric_store.hpp"
 #include "session/folder/session_folder.hpp"
@@ -77,9 +78,11 @@ json score_document(const std::string& scored_by, const json& session, const jso
 
 json explained_score(const json& document) {
   const json& score = document.at("score");
-  json metrics = json::array();
+  json metrics = json::array(), advice = json::array();
   for (const score::Metric& metric : score::metric_catalogue())
     metrics.push_back(explained(metric, document));
+  for (const report::Advice& each : report::advice_of(score, document.at("metrics")))
+    advice.push_back({{"metric", each.metric}, {"words", each.words}, {"lost_points", each.lost_points}});
   return {{"scored_by", document.at("scored_by")},
           {"theatre", document.at("theatre")},
           {"force_scale", document.at("force_scale")},
@@ -88,6 +91,7 @@ json explained_score(const json& document) {
           {"said_percent", score.at("said_percent")},
           {"outcome", score.at("outcome")},
           {"reasons", score.at("reasons")},
+          {"advice", std::move(advice)},
           {"rubric",
            {{"id", document.value("rubric_id", json())},
             {"version", score.at("version")},

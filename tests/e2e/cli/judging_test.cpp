@@ -24,6 +24,7 @@ class Judging : public CommandLine {
     json session = json_of("run/session.json");
     session["id"] = id;
     session["state"] = "finished";
+    session["device"] = "browser";
     session.update(labels);
     write_file_atomically(to / "session.json", session.dump());
   }

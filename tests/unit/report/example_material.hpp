@@ -26,7 +26,9 @@ inline report::Material full_material() {
   m.metrics["seating_percent"] = 85.0;
   m.metrics["axial_thrust_mean_n"] = 52.0;
   m.metrics["plate_preserved_percent"] = 92.0;
-  m.metrics["vault_breach_mm"] = 0.0;
+  m.metrics["vault_breach_mm"] = m.metrics["perforated_area_mm2"] = 0.0;
+  m.metrics["plan_overlap_percent"] = 92.0;
+  m.metrics["depth_error_mm"] = 0.2;
   m.metrics["missing"] = nlohmann::json::object();
   m.rubric = score::standard_rubric();
   m.score = score::apply_rubric(m.rubric, m.metrics);

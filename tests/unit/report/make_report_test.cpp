@@ -29,7 +29,8 @@ TEST(MakeReport, PutsPlanBesideWhatWasAchieved) {
   EXPECT_EQ(line(report, "Seating").pass, "\u2265\u00a090\u00a0%");
   EXPECT_EQ(line(report, "Seating").warn, "\u2265\u00a080\u00a0%");
   EXPECT_EQ(line(report, "Seating").mark, Mark::warn);
-  EXPECT_EQ(line(report, "Seating").points, "50 \u00d7 3");
+  EXPECT_EQ(line(report, "Seating").points, "") << "it decides, and weighs nothing";
+  EXPECT_EQ(line(report, "Depth error").points, "82 \u00d7 4");
   EXPECT_EQ(line(report, "Mean thrust").pass, "35 to 70\u00a0N");
   EXPECT_EQ(line(report, "Duration").mark, Mark::none);
   EXPECT_TRUE(line(report, "Vault breach").critical);
@@ -69,7 +70,7 @@ TEST(MakeReport, SaysWhoWhatAndUnderWhichConditions) {
   EXPECT_EQ(fact(named.facts, "Date"), "31 January 2026, 09:05 UTC");
   EXPECT_EQ(fact(named.facts, "Theatre mode"), "on");
   EXPECT_EQ(fact(named.facts, "Force scale"), "26 simulated N for 1 N at the hand");
-  EXPECT_NE(named.judged_by.find("version 1; theatre mode on"), std::string::npos);
+  EXPECT_NE(named.judged_by.find("version 2; theatre mode on"), std::string::npos);
   EXPECT_EQ(fact(named.provenance, "Session hash"), "0123456789abcdef");
   m.session.blinded = true;
   m.session.trainee = "P-07";
@@ -118,7 +119,7 @@ TEST(MakeReport, PointsThatRestOnLittleSaySo) {
   Material m = test::full_material();
   m.metrics["version_error_deg"] = nullptr;
   m.score = score::apply_rubric(m.rubric, m.metrics);
-  EXPECT_NE(make_report(m).points.find("on 85\u00a0% of the rubric"), std::string::npos)
+  EXPECT_NE(make_report(m).points.find("on 86\u00a0% of the rubric"), std::string::npos)
       << make_report(m).points;
 }
 

@@ -19,7 +19,7 @@ class RubricStoreTest : public testing::Test {
   Rubric rubric(double weight) const {
     Rubric r;
     r.name = "First year";
-    r.criteria.push_back({"duration_s", Ramp{600.0, 60.0}, std::nullopt, weight, false, {}, ""});
+    r.criteria.push_back({"duration_s", Ramp{600.0, 60.0}, std::nullopt, weight, false});
     return r;
   }
 

@@ -25,6 +25,7 @@ class EndedSessions : public testing::Test {
                     {"tool", "sphere 9"},
                     {"backend", "cpu"},
                     {"ticks", 1000},
+                    {"device", "browser"},
                     {"device_profile", "ideal"},
                     {"force_scale", 1.0},
                     {"random_seed", 1},
@@ -72,12 +73,14 @@ TEST_F(EndedSessions, LearnFromTheirMetrics) {
   keep("a", {{"created_utc", "2026-01-01T00:00:00Z"}, {"theatre", true}}, {{"duration_s", 100.0}});
   keep("b", {{"created_utc", "2026-01-02T00:00:00Z"}}, {{"duration_s", 900.0}});
   keep("c", {{"created_utc", "2026-01-03T00:00:00Z"}});
+  keep("demo", {{"device", "script"}}, {{"duration_s", 60.0}});
+  keep("untouched", json::object(), {{"duration_s", 60.0}, {"removed_volume_mm3", 0.0}});
   score::Rubric rubric;
   rubric.name = "fast";
   rubric.pass_points = 50.0;
   rubric.criteria.push_back({"duration_s", score::Ramp{600.0, 60.0}, std::nullopt, 1.0, false});
   const score::LearningCurve curve = learning_of(ended_sessions(data_.path()), rubric, {});
-  ASSERT_EQ(curve.points.size(), 2u) << "one session left no metrics";
+  ASSERT_EQ(curve.points.size(), 2u) << "one left no metrics, one is a script's, one cut nothing";
   EXPECT_TRUE(curve.points[0].theatre);
   EXPECT_EQ(curve.points[0].outcome, score::Outcome::pass);
   EXPECT_EQ(curve.points[1].outcome, score::Outcome::fail);

@@ -149,6 +149,7 @@ TEST_F(ScoresTest, TellACourseOfLearningInOrderOfTime) {
   const double errors[] = {8.0, 7.0, 2.0, 1.0};
   for (int i = 0; i < 4; ++i) put_session("s" + std::to_string(3 - i), errors[i], 1 + i);
   put_session("other", 9.0, 9, {{"trainee_id", "otto"}});
+  put_session("demo", 0.5, 8, {{"device", "script"}});
   start();
   add_simple_rubric();
   const HttpReply made = post(benchmarks, R"({"name": "Ours", "experts": ["s0", "s1"]})");

@@ -127,6 +127,7 @@ export const reviewText = {
   overall: 'Overall mark',
   points: (points: string) => `${points} of 100`,
   noPoints: 'No mark',
+  nextTime: 'Next time',
   outcome: { pass: 'Passed', fail: 'Failed', undecided: 'Undecided' },
   noOutcome: 'Judged by nobody: the rubric decides nothing.',
   rubric: (name: string, version: number, passPoints: number | undefined) =>

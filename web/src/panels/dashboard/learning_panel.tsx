@@ -149,7 +149,7 @@ function Table({ points }: { points: readonly CurvePoint[] }) {
             <tr key={point.session}>
               <td class="number">{i + 1}</td>
               <td>{dayAndTime(point.created_utc)}</td>
-              <td class="number">{fixed(point.points, 0)}</td>
+              <td class="number">{fixed(point.points, 1)}</td>
               <td>
                 <OutcomeMark outcome={point.outcome} />
               </td>

@@ -85,7 +85,7 @@ function Row({ session, replay }: { session: Session; replay: () => Promise<unkn
       <td>{traineeLabel(session)}</td>
       <td>{session.case}</td>
       <td class="number" data-testid={`points-${session.id}`}>
-        {fixed(session.score?.points, 0)}
+        {fixed(session.score?.points, 1)}
       </td>
       <td>
         {session.state === 'fault' || session.state === 'interrupted' ? (

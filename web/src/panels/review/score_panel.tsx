@@ -46,7 +46,7 @@ function Mark({ score, problem, place, several }: MarkParts) {
         {problem === null ? reviewText.scoreLoading : reviewText.noScore(sentence(problem))}
       </p>
     );
-  const { points, outcome, rubric, reasons, theatre, said_percent: measuredPercent } = score;
+  const { points, outcome, rubric, reasons, advice, theatre, said_percent: measuredPercent } = score;
   return (
     <div class="mark-of" data-testid={`mark-${place}`}>
       <p class="overall">
@@ -73,6 +73,16 @@ function Mark({ score, problem, place, several }: MarkParts) {
             <li key={reason}>{sentence(reason)}</li>
           ))}
         </ul>
+      )}
+      {advice.length > 0 && (
+        <>
+          <h3>{reviewText.nextTime}</h3>
+          <ol class="advice" data-testid={`advice-${place}`}>
+            {advice.map(({ metric, words }) => (
+              <li key={metric}>{words}</li>
+            ))}
+          </ol>
+        </>
       )}
     </div>
   );

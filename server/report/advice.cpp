@@ -1,0 +1,110 @@
+#include "report/advice.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "report/number_text.hpp"
+#include "score/metric_catalogue.hpp"
+
+namespace ream::report {
+namespace {
+
+using nlohmann::json;
+
+constexpr double least_loss = 1.0;
+constexpr double experiments_thrust_n = 52.0;
+constexpr std::string_view value_mark = "{}";
+
+/// What to do about a metric; `{}` stands for its value.
+struct Words {
+  std::string_view metric, words;
+};
+
+constexpr Words words_of_metrics[] = {
+    {"version_error_deg",
+     "Line the reamer up with the planned version before you press: its axis was {} off."},
+    {"inclination_error_deg",
+     "Line the reamer up with the planned inclination before you press: its axis was {} off."},
+    {"entry_error_mm", "Set the reamer down on the planned entry: it cut {} beside it."},
+    {"seating_short_percent",
+     "Ream until the face fits the component: {} less of its back rests on bone than planned."},
+    {"seating_percent", "Ream until the component rests on bone: only {} of its back does."},
+    {"plate_lost_percent", "Spare the hard layer under the face: {} more of it is gone than planned."},
+    {"congruity_mm", "Hold the axis still to the end: the surface is uneven by {}."},
+    {"vault_breach_mm", "Keep the pegs inside the bone: along this axis they come {} through the cortex."},
+    {"perforated_area_mm2", "Stop before the bone ends: the reamer left a hole of {}."},
+    {"version_excess_deg", "Correct the version further: the face leans {} too far from neutral."},
+    {"overload_time_s", "Press less at the peaks: thrust was over 78 N for {}."},
+    {"time_over_56_s", "Rinse while you ream: the bone was at 56 degrees or more for {}."},
+};
+
+double number_or_0(const json& metrics, const char* key) {
+  const auto found = metrics.find(key);
+  return found != metrics.end() && found->is_number() ? found->get<double>() : 0.0;
+}
+
+/// Too much was removed, rather than too little.
+bool went_too_far(const json& metrics) {
+  return number_or_0(metrics, "overreamed_volume_mm3") > number_or_0(metrics, "underreamed_volume_mm3");
+}
+
+std::string filled(std::string_view words, const std::string& value) {
+  std::string text(words);
+  if (const size_t at = text.find(value_mark); at != std::string::npos)
+    text.replace(at, value_mark.size(), value);
+  return text;
+}
+
+/// Of metrics that can be wrong in two ways; empty for the others.
+std::string words_by_direction(const std::string& metric, double value, const json& metrics) {
+  if (metric == "depth_error_mm")
+    return filled(went_too_far(metrics) ? "Stop earlier: the reaming is {} deeper than planned."
+                                        : "Go on to the planned depth: {} are missing.",
+                  with_unit(value, "mm"));
+  if (metric == "plan_overlap_percent")
+    return went_too_far(metrics) ? filled("Take less bone: {} are gone that the plan leaves.",
+                                          with_unit(number_or_0(metrics, "overreamed_volume_mm3"), "mm3"))
+                                 : filled("Take all that is planned: {} of it are left.",
+                                          with_unit(number_or_0(metrics, "underreamed_volume_mm3"), "mm3"));
+  if (metric == "axial_thrust_mean_n")
+    return filled(value < experiments_thrust_n ? "Press harder while you cut: it was {} on average."
+                                               : "Press less while you cut: it was {} on average.",
+                  with_unit(value, "N"));
+  return "";
+}
+
+std::string words_of(const std::string& metric, double value, const json& metrics) {
+  if (std::string words = words_by_direction(metric, value, metrics); !words.empty()) return words;
+  const score::Metric* known = score::find_metric(metric);
+  const std::string value_text = known ? with_unit(value, known->unit) : shortest(value);
+  for (const Words& each : words_of_metrics)
+    if (each.metric == metric) return filled(each.words, value_text);
+  return (known ? std::string(known->name) : metric) + " was " + value_text + ".";
+}
+
+}  // namespace
+
+std::vector<Advice> advice_of(const json& score, const json& metrics) {
+  double weights = 0.0;
+  for (const json& c : score.at("criteria"))
+    if (c.at("points").is_number()) weights += c.at("weight").get<double>();
+  std::vector<Advice> advice;
+  for (const json& c : score.at("criteria")) {
+    if (!c.at("points").is_number() || !c.at("value").is_number()) continue;
+    const double weight = weights > 0.0 ? c.at("weight").get<double>() / weights : 0.0;
+    Advice one;
+    one.metric = c.at("metric").get<std::string>();
+    one.lost_points = weight * (100.0 - c.at("points").get<double>());
+    one.decides = c.at("critical") == true && c.at("verdict") == "fail";
+    if (one.lost_points < least_loss && !one.decides) continue;
+    one.words = words_of(one.metric, c.at("value").get<double>(), metrics);
+    advice.push_back(std::move(one));
+  }
+  std::stable_sort(advice.begin(), advice.end(), [](const Advice& a, const Advice& b) {
+    return a.decides != b.decides ? a.decides : a.lost_points > b.lost_points;
+  });
+  if (advice.size() > max_advice) advice.resize(max_advice);
+  return advice;
+}
+
+}  // namespace ream::report
