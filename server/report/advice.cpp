@@ -29,7 +29,7 @@ constexpr Words words_of_metrics[] = {
     {"seating_short_percent",
      "Ream until the face fits the component: {} less of its back rests on bone than planned."},
     {"seating_percent", "Ream until the component rests on bone: only {} of its back does."},
-    {"plate_lost_percent", "Spare the hard layer under the face: {} more of it is gone than planned."},
+    {"plate_lost_percent", "Spare the hard layer under the face: {} of it is gone beyond the plan."},
     {"congruity_mm", "Hold the axis still to the end: the surface is uneven by {}."},
     {"vault_breach_mm", "Keep the pegs inside the bone: along this axis they come {} through the cortex."},
     {"perforated_area_mm2", "Stop before the bone ends: the reamer left a hole of {}."},

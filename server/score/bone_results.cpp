@@ -16,7 +16,7 @@ constexpr int directions = 360;
 constexpr double inside_rim_mm = 1.0;
 /// Of the component, where bone left under it is looked at; bone less thick than the other is the vault's
 /// edge.
-constexpr double middle_mm = 3.0, thick_bone_mm = 5.0;
+constexpr double middle_mm = 6.0, thick_bone_mm = 5.0;
 
 bool is_reamed(const AchievedFace& face, size_t ray) {
   return face.removed_mm[ray] >= reamed_mm && face.surface_mm[ray] != no_surface_mm;
@@ -191,7 +191,7 @@ MetricResults bone_results(const NativeGlenoid& native, const PlannedFace& plann
   results.set_or_missing("plate_preserved_percent",
                          plate_preserved_percent(native, face.removed_mm, component.footprint()),
                          "the component has no native face under it");
-  measure_against_plan(native, planned, face, results);
+  measure_against_plan(native, planned, face, component, results);
   measure_vault_left(native, face, component, results);
   measure_vault_clearance(native, component, line, results);
   return results;

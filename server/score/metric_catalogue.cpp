@@ -187,7 +187,7 @@ constexpr Metric catalogue[] = {
      "Share of plate preserved if the plan is carried out exactly.", no_limits, judgement,
      "by the same measure", bone, untouched_bone, percent_range, only_reported, no_aim, number},
     {"plate_lost_percent", "Plate lost beyond the plan", "%",
-     "Share of plate that the plan preserves less what is preserved; 0 where that is more.",
+     "Of the plate's bone under the component, the share that is gone beyond what the plan takes.",
      "readbyqxmd 29974217: removal increases micromotion (p = 0.043); limits are ours", judgement,
      limits_ours, bone, reamed_bone, percent_range, at_most(10.0, 40.0)},
     {"plate_thickness_mm", "Subchondral plate thickness", "mm",
@@ -207,7 +207,8 @@ constexpr Metric catalogue[] = {
      "How far the pegs reach beyond the outer cortex; 0 where they do not.", clavert, published,
      "any breach is critical", bone, reamed_bone, not_negative, at_most(0.0, 0.0)},
     {"vault_depth_mm", "Bone left in the vault", "mm",
-     "Least bone left along the planned axis under the component's middle (3 mm around it).",
+     "Least bone left along the planned axis under the component's middle: within 6 mm of it, beside the "
+     "pilot hole.",
      "Frich 1998, Clavert 2007: too little bone for pegs and keel; 10 mm, the length of a peg, is ours",
      judgement, half_voxel, bone, reamed_bone, not_negative, at_least(12.0, 10.0)},
     {"perforated_area_mm2", "Perforation by the reamer", "mm2",

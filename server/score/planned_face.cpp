@@ -17,6 +17,29 @@ double front_mm(const NativeGlenoid& native, size_t ray, double apex_mm) {
                                                 : apex_mm - native.reamer().behind_mm(radius_mm);
 }
 
+/// Thickness of the plate on a ray, mm: untouched, and what is left of it.
+struct PlateOnRay {
+  double whole_mm, left_mm;
+};
+
+PlateOnRay plate_on(const NativeGlenoid& native, const std::vector<double>& removed_mm, size_t ray) {
+  const double top = native.subchondral_mm()[ray];
+  const double whole = std::min(native.plate().thickness_mm[ray], native.exit_mm()[ray] - top);
+  return {whole, top + whole - std::max(top, native.surface_mm()[ray] + removed_mm[ray])};
+}
+
+/// Share of the plate's bone under a footprint that is left; empty without any.
+std::optional<double> plate_left_percent(const NativeGlenoid& native, const std::vector<double>& removed_mm,
+                                         const std::vector<size_t>& footprint) {
+  double whole_mm = 0.0, left_mm = 0.0;
+  for (const size_t ray : footprint) {
+    const PlateOnRay plate = plate_on(native, removed_mm, ray);
+    whole_mm += plate.whole_mm;
+    left_mm += std::max(0.0, plate.left_mm);
+  }
+  return whole_mm > 0.0 ? std::optional(100.0 * left_mm / whole_mm) : std::nullopt;
+}
+
 AchievedFace face_left_by(const NativeGlenoid& native, double apex_mm) {
   AchievedFace face;
   for (size_t ray = 0; ray < native.rays().size(); ++ray) {
@@ -42,6 +65,7 @@ PlannedFace planned_face(const NativeGlenoid& native) {
   const Component component(native, face, line);
   if (component.seated()) planned.seating_percent = 100.0 * component.supported_share();
   planned.plate_percent = plate_preserved_percent(native, face.removed_mm, component.footprint());
+  planned.plate_left_percent = plate_left_percent(native, face.removed_mm, component.footprint());
   planned.removed_mm = std::move(face.removed_mm);
   return planned;
 }
@@ -50,13 +74,10 @@ std::optional<double> plate_preserved_percent(const NativeGlenoid& native,
                                               const std::vector<double>& removed_mm,
                                               const std::vector<size_t>& footprint) {
   if (footprint.empty()) return std::nullopt;
-  const SubchondralPlate& plate = native.plate();
   size_t preserved = 0;
   for (const size_t ray : footprint) {
-    const double top = native.subchondral_mm()[ray];
-    const double whole = std::min(plate.thickness_mm[ray], native.exit_mm()[ray] - top);
-    const double left = top + whole - std::max(top, native.surface_mm()[ray] + removed_mm[ray]);
-    preserved += left >= 0.5 * whole;
+    const PlateOnRay plate = plate_on(native, removed_mm, ray);
+    preserved += plate.left_mm >= 0.5 * plate.whole_mm;
   }
   return 100.0 * static_cast<double>(preserved) / static_cast<double>(footprint.size());
 }
@@ -67,7 +88,7 @@ void measure_planned_face(const PlannedFace& planned, MetricResults& results) {
 }
 
 void measure_against_plan(const NativeGlenoid& native, const PlannedFace& planned, const AchievedFace& face,
-                          MetricResults& results) {
+                          const Component& component, MetricResults& results) {
   if (!planned.known()) {
     for (const char* key : {"overreamed_volume_mm3", "underreamed_volume_mm3", "plan_overlap_percent",
                             "seating_short_percent", "plate_lost_percent"})
@@ -87,14 +108,15 @@ void measure_against_plan(const NativeGlenoid& native, const PlannedFace& planne
   results.set_or_missing("plan_overlap_percent",
                          all_mm > 0.0 ? std::optional(200.0 * both_mm / all_mm) : std::nullopt,
                          "neither plan nor session removes anything of the face");
-  const auto short_of = [&](const char* key, const char* achieved_key, const std::optional<double>& wanted) {
-    const std::optional<double> achieved = results.value(achieved_key);
+  const auto short_of = [&](const char* key, const std::optional<double>& achieved,
+                            const std::optional<double>& wanted) {
     std::optional<double> missing;
     if (achieved && wanted) missing = std::max(0.0, *wanted - *achieved);
     results.set_or_missing(key, missing, achieved ? not_planned : "the achieved one cannot be measured");
   };
-  short_of("seating_short_percent", "seating_percent", planned.seating_percent);
-  short_of("plate_lost_percent", "plate_preserved_percent", planned.plate_percent);
+  short_of("seating_short_percent", results.value("seating_percent"), planned.seating_percent);
+  short_of("plate_lost_percent", plate_left_percent(native, face.removed_mm, component.footprint()),
+           planned.plate_left_percent);
 }
 
 }  // namespace ream::score

@@ -12,7 +12,9 @@ namespace ream::score {
 struct PlannedFace {
   /// Of every ray, mm; 0 off the face. Empty without a plan, or where the planned reamer does not touch it.
   std::vector<double> removed_mm;
-  std::optional<double> seating_percent, plate_percent;
+  /// Of the component on it: seating, share of the footprint with at least half of the plate, share of the
+  /// plate's bone under it that is left.
+  std::optional<double> seating_percent, plate_percent, plate_left_percent;
 
   bool known() const { return !removed_mm.empty(); }
 };
@@ -27,9 +29,9 @@ std::optional<double> plate_preserved_percent(const NativeGlenoid& native,
 /// What the plan itself reaches: known before the session begins.
 void measure_planned_face(const PlannedFace& planned, MetricResults& results);
 
-/// What was removed against what the plan removes, over the face; seating and plate in `results` against the
-/// planned ones.
+/// What was removed against what the plan removes, over the face; the plate under the component, and seating
+/// as it stands in `results`, against the planned ones.
 void measure_against_plan(const NativeGlenoid& native, const PlannedFace& planned, const AchievedFace& face,
-                          MetricResults& results);
+                          const Component& component, MetricResults& results);
 
 }  // namespace ream::score

@@ -15,14 +15,17 @@ constexpr double hard_push_n = 80.0;
 Script demo_script() {
   Script script;
   script.kind = ScriptKind::hand;
-  script.duration_s = 37.5;
+  script.duration_s = 28.5;
   script.force_scale = 1.0;
   script.stiffness_n_mm = 100.0;
   script.hand.start_mm = Vec3(0.0, 0.0, -12.0);
-  // Approach, press harder, let go for a look, press again, withdraw.
+  // Approach, press harder, let go for a look, press again, withdraw: to the depth of the demo case's plan.
   script.hand.force_profile = {{0.0, 0.0},   {0.2, 8.0},   {2.0, 8.0},   {4.0, 52.0},
                                {14.0, 60.0}, {14.5, -8.0}, {15.5, -8.0}, {16.5, 30.0},
-                               {17.5, 75.0}, {34.5, 75.0}, {35.0, -8.0}, {37.5, -8.0}};
+                               {17.5, 45.0}, {25.5, 45.0}, {26.0, -8.0}, {28.5, -8.0}};
+  TimedButtons rinsed;
+  rinsed.drive.irrigating = true;
+  script.buttons = {rinsed};
   return script;
 }
 
