@@ -2,6 +2,7 @@ import { useSignal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
 
 import type { Pane } from './review_workspace';
+import { limits, limitsTitle } from '../../text/limits_text';
 import { reviewText } from '../../text/review_text';
 import { groupedMetrics, number, valueText } from '../../state/review/score_text';
 import type { Score, ScoredMetric, Verdict } from '../../wire/rest_types';
@@ -26,8 +27,23 @@ export function ScorePanel({ panes }: { panes: readonly Pane[] }) {
         />
       ))}
       {first !== undefined && <Metrics scores={scores} first={first} pointed={pointed} />}
+      <Limits />
       {pointed.value !== null && <MetricCard pointed={pointed.value} scores={scores} />}
     </section>
+  );
+}
+
+/** Beside every score: what it does not rest on. */
+function Limits() {
+  return (
+    <details>
+      <summary data-testid="limits">{limitsTitle}</summary>
+      <ul class="reasons">
+        {limits.map((limit) => (
+          <li key={limit}>{limit}</li>
+        ))}
+      </ul>
+    </details>
   );
 }
 
