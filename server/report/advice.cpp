@@ -27,15 +27,19 @@ constexpr Words words_of_metrics[] = {
      "Line the reamer up with the planned inclination before you press: its axis was {} off."},
     {"entry_error_mm", "Set the reamer down on the planned entry: it cut {} beside it."},
     {"seating_short_percent",
-     "Ream until the face fits the component: {} less of its back rests on bone than planned."},
-    {"seating_percent", "Ream until the component rests on bone: only {} of its back does."},
+     "Give the face the component's shape: {} less of its back rests on bone than planned."},
+    {"seating_percent", "Give the face the component's shape: only {} of its back rests on bone."},
+    {"axis_error_deg", "Hold the reamer along the planned axis: it was {} off."},
     {"plate_lost_percent", "Spare the hard layer under the face: {} of it is gone beyond the plan."},
     {"congruity_mm", "Hold the axis still to the end: the surface is uneven by {}."},
     {"vault_breach_mm", "Keep the pegs inside the bone: along this axis they come {} through the cortex."},
     {"perforated_area_mm2", "Stop before the bone ends: the reamer left a hole of {}."},
-    {"version_excess_deg", "Correct the version further: the face leans {} too far from neutral."},
+    {"version_excess_deg", "Bring the face nearer to neutral version: it leans {} too far."},
     {"overload_time_s", "Press less at the peaks: thrust was over 78 N for {}."},
     {"time_over_56_s", "Rinse while you ream: the bone was at 56 degrees or more for {}."},
+    {"medialization_mm", "Take less bone: the face moved in by {}."},
+    {"plate_preserved_percent", "Spare the hard layer under the face: {} of it is left."},
+    {"axial_thrust_peak_n", "Press less at the peaks: thrust went up to {}."},
 };
 
 double number_or_0(const json& metrics, const char* key) {
@@ -55,12 +59,20 @@ std::string filled(std::string_view words, const std::string& value) {
   return text;
 }
 
+std::string depth_words(double error_mm, const json& metrics) {
+  const auto planned = metrics.find("depth_planned_mm"), reached = metrics.find("reaming_depth_mm");
+  const bool known =
+      planned != metrics.end() && planned->is_number() && reached != metrics.end() && reached->is_number();
+  const char* words = !known ? "Stop at the planned depth: the reaming is {} off."
+                      : reached->get<double>() > planned->get<double>()
+                          ? "Stop earlier: the reaming is {} deeper than planned."
+                          : "Go on to the planned depth: {} are missing.";
+  return filled(words, with_unit(error_mm, "mm"));
+}
+
 /// Of metrics that can be wrong in two ways; empty for the others.
 std::string words_by_direction(const std::string& metric, double value, const json& metrics) {
-  if (metric == "depth_error_mm")
-    return filled(went_too_far(metrics) ? "Stop earlier: the reaming is {} deeper than planned."
-                                        : "Go on to the planned depth: {} are missing.",
-                  with_unit(value, "mm"));
+  if (metric == "depth_error_mm") return depth_words(value, metrics);
   if (metric == "plan_overlap_percent")
     return went_too_far(metrics) ? filled("Take less bone: {} are gone that the plan leaves.",
                                           with_unit(number_or_0(metrics, "overreamed_volume_mm3"), "mm3"))

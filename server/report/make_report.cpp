@@ -65,7 +65,7 @@ std::vector<Fact> provenance_of(const Material& m) {
 
 std::string learning_words(const score::LearningCurve& curve) {
   if (curve.points.empty()) return "";
-  if (curve.points.size() == 1) return "This is the trainee's first session.";
+  if (curve.points.size() == 1) return "This is the trainee's first session that counts.";
   const auto percent = [](double share) { return shortest(100.0 * share) + "\u00a0%"; };
   std::string words = "After " + std::to_string(curve.points.size()) +
                       " sessions: " + std::string(score::to_text(curve.standing())) + ". ";

@@ -29,8 +29,9 @@ std::string value_in_words(const score::Metric& metric, double value) {
 std::string planned_in_words(const score::Metric& metric, const Material& material) {
   if (const score::Metric* planned = score::find_metric(metric.planned_by)) {
     const auto value = number_of(material.metrics, planned->key);
-    return value ? value_in_words(*planned, *value) : "";
+    if (value) return value_in_words(*planned, *value);
   }
+  // metrics.json of earlier versions does not have it.
   if (metric.key == "reaming_depth_mm" && material.planned_depth_mm > 0.0)
     return with_unit(material.planned_depth_mm, "mm");
   return "";

@@ -133,6 +133,7 @@ void measure_plan(const Task& task, MetricResults& results) {
   results.set_missing("plan_correction_deg",
                       !task.plan ? no_plan : "the case lacks rim landmarks and a glenoid frame");
   if (!task.plan) return;
+  results.set("depth_planned_mm", task.plan->depth_mm);
   if (frame) {
     const Angles planned = angles_across(*frame, task.plan->axis_direction);
     results.set("version_planned_deg", planned.version_deg);

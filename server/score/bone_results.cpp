@@ -14,9 +14,10 @@ namespace {
 
 constexpr int directions = 360;
 constexpr double inside_rim_mm = 1.0;
-/// Of the component, where bone left under it is looked at; bone less thick than the other is the vault's
-/// edge.
-constexpr double middle_mm = 6.0, thick_bone_mm = 5.0;
+/// Around the component's middle, where the bone left under it is looked at.
+constexpr double middle_mm = 6.0;
+/// Where the untouched bone is thinner than this the vault ends anyway, and no hole is made.
+constexpr double thick_bone_mm = 5.0;
 
 bool is_reamed(const AchievedFace& face, size_t ray) {
   return face.removed_mm[ray] >= reamed_mm && face.surface_mm[ray] != no_surface_mm;

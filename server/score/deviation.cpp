@@ -87,6 +87,20 @@ std::vector<int8_t> deviation_from_implant(std::span<const Vec3f> vertices_mm, c
   return codes;
 }
 
+void keep_face_only(const NativeGlenoid& native, const AchievedFace& left, const voxel::VoxelGrid& grid,
+                    std::span<const Vec3f> vertices_mm, std::vector<int8_t>& codes) {
+  // A face slopes by up to 60 degrees, and the nearest ray is up to 0.18 mm away.
+  const double tolerance_mm = grid.spacing_mm.maxCoeff() + 0.3;
+  for (size_t i = 0; i < codes.size(); ++i) {
+    const Vec3 at = native.rays().in_lattice(grid.world_from_grid.point(vertices_mm[i].cast<double>()));
+    const int nearest = native.rays().nearest(at.x(), at.y());
+    const auto ray = static_cast<size_t>(std::max(0, nearest));
+    const bool on_face =
+        nearest >= 0 && native.face()[ray] != 0 && std::abs(at.z() - left.surface_mm[ray]) < tolerance_mm;
+    if (!on_face) codes[i] = deviation_unknown;
+  }
+}
+
 void write_deviation(const std::filesystem::path& json_path, const std::string& mesh_file, size_t vertices,
                      const DeviationFields& fields) {
   struct Field {

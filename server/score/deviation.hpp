@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/triangle_tree.hpp"
+#include "score/component.hpp"
 #include "score/cutting_surface.hpp"
 #include "voxel/voxel_grid.hpp"
 
@@ -52,6 +53,12 @@ std::vector<int8_t> deviation_from_plan(std::span<const Vec3f> vertices_mm, cons
 std::vector<int8_t> deviation_from_implant(std::span<const Vec3f> vertices_mm, const BoneStates& bone,
                                            const PlacedFront& implant);
 inline constexpr double far_from_implant_mm = 8.0;
+
+/// Makes unknown what lies anywhere but on what is left of the native face: on the vault's wall and back, and
+/// beside the face. Seating is that of the face, so the shares of an implant's map are, too. `left`: the face
+/// as it is now. `codes`: of the vertices, grid frame of `grid`.
+void keep_face_only(const NativeGlenoid& native, const AchievedFace& left, const voxel::VoxelGrid& grid,
+                    std::span<const Vec3f> vertices_mm, std::vector<int8_t>& codes);
 
 /// Deviations of one surface; a field is empty when there is nothing to compare with.
 struct DeviationFields {

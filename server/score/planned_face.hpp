@@ -7,8 +7,9 @@
 
 namespace ream::score {
 
-/// What the plan makes of a glenoid, along the rays of its NativeGlenoid: the reamer has gone down the
-/// planned axis to the planned depth, and the component is seated there. Made once a session.
+/// What the plan makes of a glenoid, along the rays of its NativeGlenoid: the reamer (Task::reamer, the last
+/// that was used) has gone down the planned axis to the planned depth, and the component is seated there.
+/// Made once a session.
 struct PlannedFace {
   /// Of every ray, mm; 0 off the face. Empty without a plan, or where the planned reamer does not touch it.
   std::vector<double> removed_mm;

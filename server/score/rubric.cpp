@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr size_t max_curve_points = 50;
+constexpr size_t max_curve_points = 50, max_source_bytes = 1000;
 
 std::vector<CurvePoint> curve_from(JsonReader& reader) {
   std::vector<CurvePoint> curve;
@@ -44,6 +44,7 @@ Criterion criterion_from(JsonReader& reader) {
   c.weight = reader.number_or("weight", 1.0, 0.0, 1e6);
   c.critical = reader.boolean_or("critical", false);
   c.source = reader.text_or("source", "");
+  if (c.source.size() > max_source_bytes) reader.refuse("source", "must not be longer than 1000 bytes");
   reader.finish();
   const bool without_limits = c.judged_by().better == Better::report_only;
   if (!c.ramp && c.curve.empty() && without_limits)

@@ -42,11 +42,7 @@ std::string name_of(const std::string& metric) {
   return known ? std::string(known->name) : metric;
 }
 
-/// To a tenth, as everybody reads them, and never rounded up to the mark. A hair above what is a tenth but
-/// for the sum's own rounding.
-double rounded_down(double points) { return std::floor(points * 10.0 + 1e-6) / 10.0; }
-
-std::string in_words(double points) { return json(rounded_down(points)).dump(); }
+std::string in_words(double points) { return json(rounded_points(points)).dump(); }
 
 CriterionScore scored(const Rubric& rubric, const Criterion& criterion, const json& metrics) {
   CriterionScore result;
@@ -89,7 +85,7 @@ Outcome points_outcome(const Rubric& rubric, Score& score) {
                             " % are needed");
     return Outcome::undecided;
   }
-  const bool passed = *score.points >= *rubric.pass_points;
+  const bool passed = *score.points >= rounded_points(*rubric.pass_points);
   score.reasons.push_back(in_words(*score.points) + " points of 100; " + in_words(*rubric.pass_points) +
                           " are needed");
   return passed ? Outcome::pass : Outcome::fail;
@@ -109,6 +105,9 @@ std::optional<Outcome> outcome_of(const Rubric& rubric, Score& score) {
 
 }  // namespace
 
+// A hair above, so that what is a tenth but for the sum's own rounding stays one.
+double rounded_points(double points) { return std::floor(points * 10.0 + 1e-6) / 10.0; }
+
 double points_of(const Criterion& criterion, double value) {
   if (!criterion.curve.empty()) return points_by(criterion.curve, value);
   return criterion.ramp ? points_by(*criterion.ramp, value) : points_by(criterion.judged_by(), value);
@@ -127,7 +126,7 @@ Score apply_rubric(const Rubric& rubric, const json& metrics) {
   }
   if (all > 0.0) score.measured_percent = 100.0 * measured / all;
   if (measured > 0.0 && score.measured_percent >= rubric.min_measured_percent)
-    score.points = rounded_down(sum / measured);
+    score.points = rounded_points(sum / measured);
   score.outcome = outcome_of(rubric, score);
   return score;
 }

@@ -15,6 +15,7 @@ struct Stray {
   double depth_mm = 0.0;                            ///< beyond the planned depth
   double thrust_n = 52.0;
   double overload_s = 0.0;  ///< of the cut, at 90 N
+  double surface_c = 38.0;  ///< temperature of the bone
 };
 
 /// A plan on a bone given by formulas, and sessions that carry it out as told: the reamer comes down an axis
@@ -129,7 +130,7 @@ class ExecutedPlan {
       record::TickReport r;
       r.engaged = r.spindle_on = r.cutting = true;
       r.thrust_n = i < overloaded ? 90.0 : stray.thrust_n;
-      r.surface_temperature_c = 38.0;
+      r.surface_temperature_c = stray.surface_c;
       r.coverage_removed[0] = 100;
       r.changed_bricks = 1;
       r.world_from_tool = {end.rotation,

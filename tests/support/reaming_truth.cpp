@@ -457,6 +457,7 @@ void against_the_plan(const PlannedReaming& planned, const std::vector<Line>& li
   for (size_t i = 0; i < lines.size(); ++i) {
     if (!counts(planned, lines[i])) continue;
     both += area * std::min(lines[i].removed, wanted[i].removed);
+    truth.planned_mm3 += area * wanted[i].removed;
     truth.overreamed_mm3 += area * std::max(0.0, lines[i].removed - wanted[i].removed);
     truth.underreamed_mm3 += area * std::max(0.0, wanted[i].removed - lines[i].removed);
   }

@@ -35,9 +35,9 @@ struct ReamingTruth {
   double depth_max_mm = 0.0, depth_mean_mm = 0.0, footprint_mm2 = 0.0;
   double seating_percent = 0.0, plate_percent = 0.0;
   double rim_version_deg = 0.0, rim_inclination_deg = 0.0;
-  double overreamed_mm3 = 0.0, underreamed_mm3 = 0.0,
-         overlap_percent = 0.0;                                       ///< against the plan carried out
-  double seating_planned_percent = 0.0, plate_planned_percent = 0.0;  ///< of that
+  double planned_mm3 = 0.0;  ///< of the face, if the plan is carried out
+  double overreamed_mm3 = 0.0, underreamed_mm3 = 0.0, overlap_percent = 0.0;  ///< against that
+  double seating_planned_percent = 0.0, plate_planned_percent = 0.0;          ///< of that
 };
 
 /// How deep the bone is gone along the plan while it is being reamed, by the glenoid's formulas and the

@@ -8,6 +8,7 @@
 #include "report/metric_tables.hpp"
 #include "report/number_text.hpp"
 #include "score/metric_catalogue.hpp"
+#include "score/rubric_score.hpp"
 
 namespace ream::app {
 namespace {
@@ -23,7 +24,9 @@ std::string outcome_in_words(const json& outcome) {
 }
 
 std::string points_in_words(const json& points) {
-  return points.is_null() ? "no points" : report::decimal(points.get<double>(), 1) + " of 100 points";
+  return points.is_null()
+             ? "no points"
+             : report::decimal(score::rounded_points(points.get<double>()), 1) + " of 100 points";
 }
 
 /// "pass 100", as far as a rubric has something to say of it.
@@ -31,7 +34,8 @@ std::string verdict_in_words(const json& score, std::string_view metric) {
   for (const json& c : score.at("criteria"))
     if (c.at("metric") == metric && !c.at("value").is_null())
       return (c.at("verdict").is_null() ? std::string() : c.at("verdict").get<std::string>() + ", ") +
-             report::decimal(c.at("points").get<double>(), 0) + " points" +
+             (c.at("weight") == 0.0 ? "no weight"
+                                    : report::decimal(c.at("points").get<double>(), 0) + " points") +
              (c.at("critical") == true ? ", critical" : "");
   return "";
 }

@@ -49,8 +49,9 @@ score::PlacedFront placed(score::SweptFront front, const score::Placement& at, c
   return {std::move(front), at.world_from_body().inverse() * grid.world_from_grid};
 }
 
-void compare(const score::Task& task, const score::Placements& placements, const score::BoneStates& states,
-             ComparedBone& compared) {
+void compare(const score::NativeGlenoid& native_glenoid, const score::Placements& placements,
+             const score::BoneStates& states, ComparedBone& compared) {
+  const score::Task& task = native_glenoid.task();
   report::ReamedBone& bone = compared.bone;
   const double range_mm = 2.0 * score::deviation_range_mm;
   if (placements.achieved)
@@ -66,6 +67,8 @@ void compare(const score::Task& task, const score::Placements& placements, const
   const score::PlacedFront back =
       placed(score::implant_back(task, implant_thickness_mm), *placements.implant, states.grid);
   bone.from_implant = score::deviation_from_implant(bone.after.vertices_mm, states, back);
+  const score::AchievedFace left = score::achieved_face(native_glenoid, {states.grid, states.left});
+  score::keep_face_only(native_glenoid, left, states.grid, bone.after.vertices_mm, bone.from_implant);
   compared.implant =
       shell::revolve(back.front.profile(), implant_segments).transformed(back.front_from_grid.inverse());
 }
@@ -92,7 +95,7 @@ ComparedBone reamed_bone(const record::Recording& recording, const score::Metric
   bone.cut = score::cut_vertices(bone.after.vertices_mm, states);
   const score::Placements placements = score::placements_of(
       *native, {grid, coverages.left.data()}, ticks.cut_line(), sim::world_from_plan(*bone_case.plan));
-  compare(native->task(), placements, states, compared);
+  compare(*native, placements, states, compared);
   return compared;
 }
 

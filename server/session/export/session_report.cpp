@@ -127,7 +127,7 @@ score::LearningCurve learning_up_to(const json& session, const ExportRequest& re
   std::vector<EndedSession> theirs = sessions_of_trainee(ended_sessions(request.data), trainee);
   const auto here =
       std::find_if(theirs.begin(), theirs.end(), [&](const EndedSession& each) { return each.id == id; });
-  if (here == theirs.end()) return {};
+  if (here == theirs.end() || here->session.value("device", "script") == "script") return {};
   theirs.erase(here + 1, theirs.end());
   return learning_of(theirs, rubric, {});
 }

@@ -11,6 +11,7 @@
 #include "core/log.hpp"
 #include "core/new_id.hpp"
 #include "core/text.hpp"
+#include "score/rubric_score.hpp"
 #include "session/folder/session_labels.hpp"
 #include "session/folder/timing_file.hpp"
 
@@ -45,7 +46,7 @@ SessionState state_of(const json& session, const fs::path& folder) {
 std::optional<SessionMark> mark_from(const json& mark) {
   if (!mark.is_object()) return std::nullopt;
   SessionMark read;
-  if (mark.at("points").is_number()) read.points = mark.at("points").get<double>();
+  if (mark.at("points").is_number()) read.points = score::rounded_points(mark.at("points").get<double>());
   if (mark.at("outcome").is_string()) read.outcome = mark.at("outcome").get<std::string>();
   read.rubric = mark.at("rubric").get<std::string>();
   read.version = mark.at("version").get<int>();

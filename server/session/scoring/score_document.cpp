@@ -23,6 +23,11 @@ json criterion_of(const json& document, std::string_view metric) {
   return nullptr;
 }
 
+/// Scores of earlier versions were kept with all their digits.
+json shown_points(const json& points) {
+  return points.is_number() ? json(score::rounded_points(points.get<double>())) : json();
+}
+
 json explained(const score::Metric& metric, const json& document) {
   const json& metrics = document.at("metrics");
   const std::string key(metric.key);
@@ -53,10 +58,14 @@ json explained(const score::Metric& metric, const json& document) {
           {"critical", criterion.is_object() && criterion.at("critical").get<bool>()}};
 }
 
-/// Empty when it says all that `before` says.
+/// Empty when it says all that `before` says, but for what a session need not hold: a program may have become
+/// stricter about that.
 std::string lost_metric(const json& before, const json& metrics) {
-  for (const auto& [key, value] : before.items())
-    if (value.is_number() && score::find_metric(key) && !metrics.value(key, json()).is_number()) return key;
+  for (const auto& [key, value] : before.items()) {
+    const score::Metric* metric = score::find_metric(key);
+    if (metric == nullptr || metric->basis == score::Basis::episode) continue;
+    if (value.is_number() && !metrics.value(key, json()).is_number()) return key;
+  }
   return "";
 }
 
@@ -87,7 +96,7 @@ json explained_score(const json& document) {
           {"theatre", document.at("theatre")},
           {"force_scale", document.at("force_scale")},
           {"physics", document.value("physics", 1)},
-          {"points", score.at("points")},
+          {"points", shown_points(score.at("points"))},
           {"said_percent", score.at("said_percent")},
           {"outcome", score.at("outcome")},
           {"reasons", score.at("reasons")},

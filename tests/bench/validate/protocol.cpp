@@ -17,7 +17,7 @@ device::Script robot_script(double start_mm, double depth_mm, double factor) {
   script.duration_s = longest_s;
   script.specimen_factor = factor;
   script.robot.start_mm = Vec3(0, 0, start_mm - start_above_mm);
-  script.robot.force_n = force::reference_thrust_n;
+  script.robot.force_n = published_thrust_n;
   script.robot.ramp_s = protocol_ramp_s;
   script.robot.depth_mm = depth_mm;
   return script;
@@ -52,7 +52,7 @@ Phase phase_of(const sim::Model& model, const std::vector<record::TickReport>& r
     phase.ticks.push_back({reports[i].thrust_n, apex_mm(model, reports[i]) - touched_mm});
 
   std::vector<double> held_n;
-  const double full_n = 0.999 * force::reference_thrust_n, most_n = 0.9 * force::reference_thrust_n;
+  const double full_n = 0.999 * published_thrust_n, most_n = 0.9 * published_thrust_n;
   const ProtocolTick *first = nullptr, *last = nullptr, *held_from = nullptr;
   for (const ProtocolTick& tick : phase.ticks) {
     if (!first && tick.thrust_n >= force::start_threshold_n) first = &tick;

@@ -34,7 +34,7 @@ std::vector<std::vector<double>> curves(const PublishedBone& bone, const Phases&
       advance[s] = phases[s].ticks[i].advance_mm;
     }
     const double t_s = static_cast<double>(i) * tick_s;
-    const bool held = mean(thrust) > 0.999 * force::reference_thrust_n;
+    const bool held = mean(thrust) > 0.999 * published_thrust_n;
     if (held && std::isnan(held_from_mm)) {
       held_since_s = t_s;
       held_from_mm = mean(advance);

@@ -1,8 +1,6 @@
 #pragma once
 #include <array>
 
-#include "force/coefficients.hpp"
-
 namespace ream::bench {
 
 /// One row of table 5.1: density, feed rate and apparent machining stiffness at 52 N.
@@ -10,16 +8,24 @@ struct Specimen {
   double density_g_cc, feed_mm_s, stiffness_n_mm;
 };
 
+/// Feed rate at the protocol's thrust: f = slope * D + intercept.
+struct PublishedLaw {
+  double slope_mm_s_per_g_cc, intercept_mm_s;
+};
+
+/// The protocol's thrust and spindle speed (thesis 5.1).
+inline constexpr double published_thrust_n = 52.0, published_spindle_rpm = 156.0;
+
 struct MeanAndDeviation {
   double mean = 0.0, deviation = 0.0;
 };
 
-/// What the thesis publishes about one kind of bone (chapter 5). Regression figures are those that its table
-/// gives, which the text rounds.
+/// What the thesis publishes about one kind of bone (chapter 5), typed in as it prints it: nothing here comes
+/// from the product. Regression figures are those that its table gives, which the text rounds.
 struct PublishedBone {
   const char* name;
   std::array<Specimen, 6> specimens;
-  force::FeedLaw law;
+  PublishedLaw law;
   double rho, r_squared, p;
   MeanAndDeviation thrust_n, feed_mm_s;  ///< at the protocol's full force, over the specimens
   int thrust_figure, density_figure;     ///< numbers of its pictures: 5.2 and 5.4, or 5.3 and 5.5
@@ -32,7 +38,7 @@ inline constexpr PublishedBone published_cortical{"cortical",
                                                     {1.40, 0.038, 81.06},
                                                     {1.58, 0.026, 53.66},
                                                     {1.30, 0.039, 83.10}}},
-                                                  force::cortical_feed_law,
+                                                  {-0.05, 0.11},
                                                   -0.7852,
                                                   0.617,
                                                   0.0642,
@@ -48,7 +54,7 @@ inline constexpr PublishedBone published_cancellous{"cancellous",
                                                       {0.45, 0.26, 48.42},
                                                       {0.62, 0.23, 27.28},
                                                       {0.48, 0.25, 39.45}}},
-                                                    force::cancellous_feed_law,
+                                                    {-0.34, 0.42},
                                                     -0.9384,
                                                     0.881,
                                                     0.0056,

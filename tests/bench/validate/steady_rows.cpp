@@ -17,9 +17,9 @@ std::vector<Row> steady_rows(const Options&) {
   in_parallel(2 * densities_g_cc.size(), [&](size_t i) {
     const double density = densities_g_cc[i / 2];
     if (i % 2 == 0)
-      impedance[i / 2] = steady_reaming(density, force::reference_thrust_n);
+      impedance[i / 2] = steady_reaming(density, published_thrust_n);
     else
-      admittance[i / 2] = steady_reaming(density, force::reference_thrust_n, 1.0, "ideal-admittance");
+      admittance[i / 2] = steady_reaming(density, published_thrust_n, 1.0, "ideal-admittance");
   });
   std::vector<Row> rows;
   for (size_t i = 0; i < densities_g_cc.size(); ++i) {

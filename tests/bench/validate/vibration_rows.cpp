@@ -6,6 +6,7 @@
 #include "bench/validate/statistics.hpp"
 #include "bench/validate/validate_parts.hpp"
 #include "core/clock.hpp"
+#include "core/units.hpp"
 #include "force/vibration/vibration_player.hpp"
 
 namespace ream::bench {
@@ -47,7 +48,7 @@ Signal minute_of(const std::shared_ptr<const force::VibrationTracks>& tracks, si
   force::VibrationPlayer player(tracks, seed);
   force::VibrationInput input;
   input.turning = input.cutting = true;
-  input.spindle_speed_rad_s = force::reference_spindle_rad_s;
+  input.spindle_speed_rad_s = rad_s_from_rpm(published_spindle_rpm);
   input.share[bone_class] = 1.0;
   for (int i = 0; i < 10 * force::vibration_fade_ticks; ++i) player.next_g(input);
   Signal signal(minute_ticks);

@@ -45,9 +45,14 @@ TEST(Advice, PutsFirstWhatFailsTheSessionThenWhatCostsMost) {
 TEST(Advice, KnowsTooMuchFromTooLittle) {
   json deep = perfect(), shallow = perfect();
   deep["depth_error_mm"] = shallow["depth_error_mm"] = 0.8;
-  deep["overreamed_volume_mm3"] = shallow["underreamed_volume_mm3"] = 90.0;
+  deep["depth_planned_mm"] = shallow["depth_planned_mm"] = 1.0;
+  deep["reaming_depth_mm"] = 1.8;
+  shallow["reaming_depth_mm"] = 0.2;
   EXPECT_TRUE(advised(deep).at(0).words.starts_with("Stop earlier")) << advised(deep).at(0).words;
   EXPECT_TRUE(advised(shallow).at(0).words.starts_with("Go on")) << advised(shallow).at(0).words;
+  deep.erase("depth_planned_mm");
+  EXPECT_TRUE(advised(deep).at(0).words.starts_with("Stop at the planned depth"))
+      << advised(deep).at(0).words;
   json light = perfect(), heavy = perfect();
   light["axial_thrust_mean_n"] = 12.0;
   heavy["axial_thrust_mean_n"] = 95.0;
@@ -64,17 +69,19 @@ TEST(Advice, WhatLosesPointsAddsUpToWhatIsMissing) {
   EXPECT_NEAR(100.0 - lost, *score::apply_rubric(score::standard_rubric(), metrics).points, 0.1);
 }
 
-TEST(Advice, HasWordsForEveryLineOfTheStandardRubric) {
-  for (const score::Criterion& criterion : score::standard_rubric().criteria) {
-    json metrics = perfect();
-    const bool more_is_better = criterion.judged_by().better == score::Better::more;
-    metrics[criterion.metric] = more_is_better ? 10.0 : 1000.0;
-    const std::vector<Advice> advice = advised(metrics);
-    ASSERT_EQ(advice.size(), 1u) << criterion.metric;
-    EXPECT_NE(advice[0].words.find(": "), std::string::npos)
-        << "says what to do, and why: " << advice[0].words;
-    EXPECT_EQ(advice[0].words.find("{}"), std::string::npos) << advice[0].words;
-  }
+TEST(Advice, HasWordsForEveryLineOfEveryStandardRubric) {
+  for (const score::Rubric& rubric : score::standard_rubrics())
+    for (const score::Criterion& criterion : rubric.criteria) {
+      json metrics = perfect();
+      metrics["plate_preserved_percent"] = 100.0;
+      const bool more_is_better = criterion.judged_by().better == score::Better::more;
+      metrics[criterion.metric] = more_is_better ? 10.0 : 1000.0;
+      const auto advice = advice_of(score::score_json(rubric, score::apply_rubric(rubric, metrics)), metrics);
+      ASSERT_EQ(advice.size(), 1u) << rubric.version << ": " << criterion.metric;
+      EXPECT_NE(advice[0].words.find(": "), std::string::npos)
+          << "says what to do, and why: " << advice[0].words;
+      EXPECT_EQ(advice[0].words.find("{}"), std::string::npos) << advice[0].words;
+    }
 }
 
 TEST(Advice, NamesMetricsOfOtherRubrics) {

@@ -28,6 +28,7 @@ inline report::Material full_material() {
   m.metrics["plate_preserved_percent"] = 92.0;
   m.metrics["vault_breach_mm"] = m.metrics["perforated_area_mm2"] = 0.0;
   m.metrics["plan_overlap_percent"] = 92.0;
+  m.metrics["depth_planned_mm"] = 2.0;
   m.metrics["depth_error_mm"] = 0.2;
   m.metrics["missing"] = nlohmann::json::object();
   m.rubric = score::standard_rubric();

@@ -47,8 +47,8 @@ TEST(MakeReport, EveryMetricIsThereOnceWithItsSource) {
       ASSERT_GE(each.source, 1) << each.name;
       ASSERT_LE(static_cast<size_t>(each.source), report.sources.size()) << each.name;
     }
-  EXPECT_EQ(lines, score::metric_catalogue().size() - 2)
-      << "planned version and inclination stand beside others";
+  EXPECT_EQ(lines, score::metric_catalogue().size() - 5)
+      << "planned angles, depth, seating and plate stand beside others";
   ASSERT_EQ(report.meanings.size(), score::metric_catalogue().size());
   for (size_t i = 0; i < report.meanings.size(); ++i) {
     const score::Metric& metric = score::metric_catalogue()[i];
@@ -130,7 +130,7 @@ TEST(MakeReport, TellsTheCourseOfLearning) {
   passed.outcome = score::Outcome::pass;
   passed.points = 80.0;
   m.learning = score::learning_curve({}, {passed});
-  EXPECT_EQ(make_report(m).learning_words, "This is the trainee's first session.");
+  EXPECT_EQ(make_report(m).learning_words, "This is the trainee's first session that counts.");
   m.learning = score::learning_curve({}, {passed, passed, passed});
   const Report report = make_report(m);
   EXPECT_NE(report.learning_words.find("After 3 sessions: going on. Passing the next 5"), std::string::npos);

@@ -123,19 +123,32 @@ TEST(StandardRubric, PointsFallEvenly) {
     std::optional<double> before;
     for (int i = 0; i <= 10; ++i) {
       const double points = *judged(plan.metrics(along(error, 0.1 * i))).points;
-      EXPECT_LE(std::abs(points - before.value_or(points)), 15.0) << 0.1 * i << " mm";
+      // No single criterion weighs more than 4 of 29.
+      EXPECT_LE(points, before.value_or(points)) << 0.1 * i << " mm";
+      EXPECT_GT(points, before.value_or(points) - 4.0) << 0.1 * i << " mm";
       before = points;
     }
   }
 }
 
+/// The plan turns the face; who turns it half the way has corrected half of its version.
 TEST(StandardRubric, HalfACorrectionScoresLessThanTheWhole) {
-  const ExecutedPlan plan = Plans().next();
-  // The face that is left leans as far from the plan as half of what was to be corrected.
-  for (const double correction_deg : {4.0, 8.0, 12.0})
-    EXPECT_LT(*judged(plan.metrics(along(&Stray::version_deg, -0.5 * correction_deg))).points,
-              *judged(plan.metrics({})).points)
-        << correction_deg;
+  Plans plans;
+  for (int n = 0; n < 5; ++n) {
+    const ExecutedPlan plan = plans.next();
+    const nlohmann::json whole = plan.metrics({});
+    const double planned_deg = whole.at("version_planned_deg"),
+                 native_deg = Plans::plan_of(plans.seed()).glenoid.shoulder.version_deg;
+    const double half_deg = 0.5 * (native_deg - planned_deg);
+    // Which way an axis turns for retroversion differs by side.
+    nlohmann::json half = plan.metrics(along(&Stray::version_deg, half_deg));
+    const auto off = [&](const nlohmann::json& metrics) {
+      return std::abs(metrics.at("version_achieved_deg").get<double>() - (planned_deg + half_deg));
+    };
+    if (off(half) > 0.1) half = plan.metrics(along(&Stray::version_deg, -half_deg));
+    ASSERT_LT(off(half), 0.1) << "seed " << plans.seed();
+    EXPECT_LT(*judged(half).points, *judged(whole).points) << "seed " << plans.seed();
+  }
 }
 
 TEST(StandardRubric, ForceAndHeatCostALittle) {
@@ -149,6 +162,32 @@ TEST(StandardRubric, ForceAndHeatCostALittle) {
   }
   EXPECT_LT(*judged(plan.metrics(along(&Stray::thrust_n, 15.0))).points, ideal);
   EXPECT_LT(*judged(plan.metrics(along(&Stray::overload_s, 2.0))).points, ideal);
+  Stray hot = along(&Stray::overload_s, 2.0);
+  hot.surface_c = 60.0;
+  EXPECT_LT(*judged(plan.metrics(hot)).points, *judged(plan.metrics(along(&Stray::overload_s, 2.0))).points);
+}
+
+/// Cap, component and pegs: what the bone loses by going too deep, in figures.
+TEST(StandardRubric, JudgesBoneThatIsGone) {
+  Plans plans;
+  const ExecutedPlan plan = plans.next();
+  const nlohmann::json ideal = plan.metrics({}), deep = plan.metrics(along(&Stray::depth_mm, 2.0));
+  const auto value = [](const nlohmann::json& metrics, const char* key) {
+    return metrics.at(key).get<double>();
+  };
+  EXPECT_NEAR(value(ideal, "vault_depth_mm") - value(deep, "vault_depth_mm"), 2.0, 0.2);
+  EXPECT_EQ(value(ideal, "perforated_area_mm2"), 0.0);
+  EXPECT_NEAR(value(ideal, "plate_lost_percent"), 0.0, 3.0);
+  EXPECT_GT(value(deep, "plate_lost_percent"), 15.0);
+  EXPECT_EQ(value(ideal, "depth_planned_mm"), Plans::plan_of(plans.seed()).plan.depth_mm);
+  EXPECT_NEAR(value(ideal, "seating_short_percent"), 0.0, 2.0);
+  const nlohmann::json through = plan.metrics(along(&Stray::depth_mm, 30.0));
+  EXPECT_GT(value(through, "perforated_area_mm2"), 50.0);
+  EXPECT_EQ(judged(through).outcome, Outcome::fail);
+  const nlohmann::json turned = plan.metrics(along(&Stray::version_deg, 20.0));
+  const double achieved = std::abs(value(turned, "version_achieved_deg")),
+               allowed = std::max(7.0, std::abs(value(turned, "version_planned_deg")));
+  EXPECT_NEAR(value(turned, "version_excess_deg"), std::max(0.0, achieved - allowed), 1e-5);
 }
 
 /// Whatever else is right, what is malpositioned or goes much too deep does not pass.

@@ -117,6 +117,11 @@ TEST(RubricScore, PointsDecideByTheMark) {
       << "never rounded up to the mark";
 }
 
+TEST(RubricScore, AMarkWithHundredthsIsReadAsPointsAre) {
+  const Rubric r = rubric({limited("a_mm"), limited("b_mm")}, 72.3478);
+  EXPECT_EQ(apply_rubric(r, {{"a_mm", 1.0}, {"b_mm", 3.1044}}).outcome, Outcome::pass) << "72.39 points";
+}
+
 TEST(RubricScore, TooLittleSaidIsNotDecided) {
   const Rubric r = rubric({limited("a_mm", false, 2.0), limited("b_mm", false, 3.0)}, 70.0);
   const Score one = apply_rubric(r, {{"a_mm", 0.0}, {"b_mm", nullptr}});

@@ -60,6 +60,8 @@ TEST_F(RubricStoreTest, EveryStandardThatWasEverShippedCanBeHadAgain) {
     EXPECT_EQ(rubric_hash(store_.get("standard", version)), rubric_hash(standard_rubrics()[i]));
   }
   EXPECT_EQ(rubric_hash(store_.get("standard")), rubric_hash(standard_rubric()));
+  EXPECT_EQ(rubric_hash(store_.get("standard", 1)), 3866880376543536442u)
+      << "sessions were judged by it: it never changes";
 }
 
 TEST_F(RubricStoreTest, AStandardOfTheHouseStandsBeforeTheShippedOneOfItsNumber) {

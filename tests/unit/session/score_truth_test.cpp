@@ -36,7 +36,12 @@ struct Figure {
   const char* key;
   double ReamingTruth::*truth;
   double tolerance;       ///< in the figure's unit, or
-  double relative = 0.0;  ///< as a share of the truth
+  double relative = 0.0;  ///< as a share of the truth, or of another
+  double ReamingTruth::*relative_to = nullptr;
+
+  double allowed(const ReamingTruth& true_figures) const {
+    return tolerance + relative * true_figures.*(relative_to ? relative_to : truth);
+  }
 };
 
 constexpr Figure figures[] = {
@@ -53,8 +58,8 @@ constexpr Figure figures[] = {
     {"plate_preserved_percent", &ReamingTruth::plate_percent, 2.0},
     {"seating_planned_percent", &ReamingTruth::seating_planned_percent, 1.0},
     {"plate_planned_percent", &ReamingTruth::plate_planned_percent, 2.0},
-    {"overreamed_volume_mm3", &ReamingTruth::overreamed_mm3, 1.0, 0.02},
-    {"underreamed_volume_mm3", &ReamingTruth::underreamed_mm3, 1.0, 0.02},
+    {"overreamed_volume_mm3", &ReamingTruth::overreamed_mm3, 1.0, 0.01, &ReamingTruth::planned_mm3},
+    {"underreamed_volume_mm3", &ReamingTruth::underreamed_mm3, 1.0, 0.01, &ReamingTruth::planned_mm3},
     {"plan_overlap_percent", &ReamingTruth::overlap_percent, 0.5},
 };
 constexpr size_t figure_count = std::size(figures);
@@ -87,7 +92,7 @@ TEST_P(ScoreTruth, IsWhatIsSaid) {
   for (size_t i = 0; i < figure_count; ++i) {
     const Figure& figure = figures[i];
     const double said = metrics.at(figure.key).get<double>(), true_value = truth.*figure.truth;
-    const double allowed = figure.tolerance + figure.relative * true_value;
+    const double allowed = figure.allowed(truth);
     EXPECT_NEAR(said, true_value, allowed) << figure.key;
     remember(i, std::abs(said - true_value) / allowed);
   }

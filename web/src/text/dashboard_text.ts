@@ -60,7 +60,7 @@ export const dashboardText = {
   noLearner:
     'Nobody has trained under a name or a study’s code yet. Operators add trainees under Users; whoever logs in and practises appears here.',
   noOwnSessions:
-    'You have no session that has ended yet. Practise in the live view; your course of learning appears here.',
+    'You have no session that counts yet. Practise in the live view; your course of learning appears here.',
   allTogether:
     'This server has no users, so sessions are not told apart by trainee: these are the points of all of them. An operator adds trainees under Users.',
   pointsOver: 'Points over sessions',

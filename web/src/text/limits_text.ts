@@ -11,5 +11,5 @@ export const limits: readonly string[] = [
   'Heat is calculated straight down into the bone. Patients’ bones were hot to a greater depth than it says.',
   'Soft tissue, retractors, the humeral head, blood and chips are missing, and the scapula stands still unless a script mounts it on springs.',
   'A mouse gives no force, and most devices give less than a patient does: the page shows the scale.',
-  'Weights, marks and most limits of the standard rubric are engineering judgement. Each line of it names its source.',
+  'Weights, marks and most limits of the standard rubric are engineering judgement.',
 ];

@@ -116,7 +116,7 @@ function PointsChart({ points }: { points: readonly CurvePoint[] }) {
       value={(point) => point.points}
       scale={{ low: -4, high: 104 }}
       lines={[0, 50, 100].map((at) => ({ at, name: null }))}
-      decimals={0}
+      decimals={1}
     />
   );
 }

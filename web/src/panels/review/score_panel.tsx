@@ -33,7 +33,7 @@ export function ScorePanel({ panes }: { panes: readonly Pane[] }) {
   );
 }
 
-/** Beside every score: what it does not rest on. */
+/** Under the marks: what they do not rest on. */
 function Limits() {
   return (
     <details>

@@ -14,15 +14,21 @@ export const drawnAtMost = 60;
 
 export const curveOfLearning = ({ sessions }: Learning): readonly CurvePoint[] => sessions;
 
+/** Demos and scripted runs count for nobody. */
+export const isHeldBySomebody = ({ device }: Session): boolean => device.name !== 'script';
+
 /** Of sessions as they are listed, newest first. */
 export function curveOfSessions(sessions: readonly Session[]): readonly CurvePoint[] {
-  return [...sessions].reverse().map(({ id, created_utc, score }) => ({
-    session: id,
-    created_utc,
-    outcome: score?.outcome ?? null,
-    points: score?.points ?? null,
-    cusum: null,
-  }));
+  return sessions
+    .filter(isHeldBySomebody)
+    .reverse()
+    .map(({ id, created_utc, score }) => ({
+      session: id,
+      created_utc,
+      outcome: score?.outcome ?? null,
+      points: score?.points ?? null,
+      cusum: null,
+    }));
 }
 
 /** Values with room above and below, and nice marks between; `atLeast` is always within. */

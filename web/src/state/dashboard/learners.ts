@@ -1,3 +1,4 @@
+import { isHeldBySomebody } from './curve';
 import type { Session } from '../../wire/rest_types';
 import type { Learner } from '../../wire/dashboard_api';
 
@@ -14,7 +15,7 @@ export interface KnownLearner extends Learner {
 /** Who trained in these sessions, newest first: by name, or by the code of a study where the name is not to be known. */
 export function learnersIn(sessions: readonly Session[]): KnownLearner[] {
   const found = new Map<string, KnownLearner>();
-  for (const session of sessions) {
+  for (const session of sessions.filter(isHeldBySomebody)) {
     const learner = learnerOf(session);
     if (learner === null) continue;
     const known = found.get(learner.key);
