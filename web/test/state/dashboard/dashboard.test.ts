@@ -5,8 +5,10 @@ import type { Learning, Session } from '../../../src/wire/rest_types';
 import type { ChangeHandlers } from '../../../src/wire/change_socket';
 import type { DashboardApi, Learner } from '../../../src/wire/dashboard_api';
 import { ApiError } from '../../../src/wire/rest';
+import { someDevice, someSession } from '../../wire/some_answers';
 
-const ended = (id: string, traineeId: string) => ({ id, trainee_id: traineeId, trainee: traineeId }) as Session;
+const ended = (id: string, traineeId: string) =>
+  someSession({ id, trainee_id: traineeId, trainee: traineeId, device: someDevice('browser') });
 
 describe('Dashboard', () => {
   let requests: Learner[];
