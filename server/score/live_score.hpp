@@ -4,6 +4,7 @@
 #include "score/bone_results.hpp"
 #include "score/depth_gauge.hpp"
 #include "score/metrics.hpp"
+#include "score/planned_face.hpp"
 
 namespace ream::score {
 

@@ -50,7 +50,7 @@ class RobotDevice final : public ScriptedDevice {
     phase_ = phase;
     since_s_ = t_s;
     moved_s_ = t_s;
-    from_mm_ = moved_mm_ = along_mm();
+    from_mm_ = along_mm();
   }
 
   /// A pause stops the robot's clock too; a pause of the session, the script's as well.
@@ -71,19 +71,12 @@ class RobotDevice final : public ScriptedDevice {
   }
 
   bool held_up(double t_s) noexcept {
-    if (held_.col(2).dot(handle_.velocity_mm_s()) > 0.5 * robot_.approach_mm_s) {
-      moved_s_ = t_s;
-      moved_mm_ = along_mm();
-    }
+    if (held_.col(2).dot(handle_.velocity_mm_s()) > 0.5 * robot_.approach_mm_s) moved_s_ = t_s;
     return t_s - since_s_ > under_way_after_s && t_s - moved_s_ > contact_after_s;
   }
 
   double axial_n(double t_s) noexcept {
-    if (phase_ == Phase::approach && held_up(t_s)) {
-      const double contact_mm = moved_mm_;
-      enter(Phase::press, t_s);
-      from_mm_ = contact_mm;
-    }
+    if (phase_ == Phase::approach && held_up(t_s)) enter(Phase::press, t_s);
     if (phase_ == Phase::press && along_mm() - from_mm_ >= robot_.depth_mm) enter(Phase::withdraw, t_s);
     if (phase_ == Phase::approach) return drive_n(robot_.approach_mm_s);
     if (phase_ == Phase::withdraw) return drive_n(-robot_.approach_mm_s);
@@ -115,7 +108,6 @@ class RobotDevice final : public ScriptedDevice {
   CommandedPose handle_;
   Phase phase_ = Phase::approach;
   double since_s_ = 0.0, moved_s_ = 0.0, from_mm_ = 0.0, last_s_ = 0.0;
-  double moved_mm_ = 0.0;  ///< where it still went on as it should: bone begins there, or a little later
 };
 
 }  // namespace

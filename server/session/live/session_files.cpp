@@ -9,6 +9,7 @@
 #include "core/log.hpp"
 #include "record/op_log.hpp"
 #include "score/bone_results.hpp"
+#include "score/planned_face.hpp"
 #include "session/folder/black_box_files.hpp"
 #include "session/folder/session_folder.hpp"
 #include "session/folder/session_labels.hpp"

@@ -7,6 +7,7 @@
 #include "core/log.hpp"
 #include "record/recorded_bone.hpp"
 #include "score/bone_results.hpp"
+#include "score/planned_face.hpp"
 #include "score/metrics.hpp"
 #include "session/simulation/find_case.hpp"
 #include "session/simulation/recorded_session.hpp"

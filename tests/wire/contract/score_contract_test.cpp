@@ -1,5 +1,6 @@
 #include <future>
 
+#include "score/rubric.hpp"
 #include "score_fixture.hpp"
 
 namespace ream::test {
@@ -145,7 +146,8 @@ class ScoreContractTest : public ScoreTest {
     start();
     const json wanted = {{"id", "other"}, {"rubric", simple_rubric(1)}};
     expect_post(rubrics, rubrics, 503, wanted.dump());
-    expect_request("PUT", one_rubric, rubrics + "/standard", 503, simple_rubric(1).dump());
+    expect_request("PUT", one_rubric, rubrics + "/standard", 503,
+                   simple_rubric(score::standard_rubric().version).dump());
     expect_post(benchmarks, benchmarks, 503, R"({"name": "Two", "experts": ["s0", "s1"]})");
   }
 

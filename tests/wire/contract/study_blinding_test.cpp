@@ -58,7 +58,7 @@ class StudyBlindingTest : public AccessTest {
 
   /// A session of the person's, begun by themself or by who watches, with a remark of theirs.
   void train(const Person& person, bool by_staff) {
-    json wanted = {{"case", "planned"}, {"study", study_id}, {"device", "browser"}};
+    json wanted = {{"case", "planned"}, {"study", study_id}};
     if (by_staff) wanted["participant"] = person.code;
     const json session = made(by_staff ? ines : person.token, all, wanted);
     if (by_staff) expect_nothing_of(person, session.dump(), "the answer to who began the session");
