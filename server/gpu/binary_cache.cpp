@@ -1,5 +1,6 @@
 #include "gpu/binary_cache.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 
@@ -58,7 +59,7 @@ void store_binary(const std::string& key, const std::vector<std::byte>& binary) 
   const Header header{second_hash(key), hash_bytes(binary), binary.size()};
   std::vector<std::byte> bytes(sizeof header + binary.size());
   std::memcpy(bytes.data(), &header, sizeof header);
-  std::memcpy(bytes.data() + sizeof header, binary.data(), binary.size());
+  std::copy(binary.begin(), binary.end(), bytes.begin() + sizeof header);
   std::error_code failed;
   std::filesystem::create_directories(path.parent_path(), failed);
   if (failed) return;

@@ -28,7 +28,7 @@ constexpr std::string_view angle_checked = "within 0.2 degrees of the truth in 1
 constexpr std::string_view entry_checked = "within 0.1 mm of the truth in 100 seeded reamings";
 constexpr std::string_view rim_depends =
     "depends on the shape of the face: a sphere's rim lies across the line of both centres, not across the "
-    "tool";
+    "tool; up to a degree off where the reamer walked and left a ledge";
 constexpr std::string_view of_the_plan = "as exact as the landmarks that were placed";
 constexpr std::string_view checked_sum =
     "an exact sum over ticks; within 0.5 % of the truth in seeded reamings";

@@ -13,6 +13,8 @@ using Int4 = int __attribute__((vector_size(16)));
 using Int8 = int __attribute__((vector_size(32)));
 using Long4 = long long __attribute__((vector_size(32)));
 using Long8 = long long __attribute__((vector_size(64)));
+using ULong4 = unsigned long long __attribute__((vector_size(32)));
+using ULong8 = unsigned long long __attribute__((vector_size(64)));
 using Float8 = float __attribute__((vector_size(32)));
 
 /// Whole numbers of as many lanes.
@@ -106,9 +108,9 @@ inline Whole floor_between(const Doubles& x, double low, double high) {
   return __builtin_convertvector(rounded_down(smaller(larger(x, Doubles{} + low), Doubles{} + high)), Whole);
 }
 
-/// 1 << x for whole numbers x from 0 to 63 that are shifted so.
-inline Long8 bit_at(const Double8& shifted) {
-  return (Long8{} + 1) << (reinterpret_cast<Long8>(shifted) & 63);
+/// 1 << x for whole numbers x from 0 to 63 that are shifted so. Unsigned, as bit 63 is one of them.
+inline ULong8 bit_at(const Double8& shifted) {
+  return (ULong8{} + 1) << (reinterpret_cast<ULong8>(shifted) & 63);
 }
 
 }  // namespace ream::voxelizer

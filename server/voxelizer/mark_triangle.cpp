@@ -106,7 +106,7 @@ class NarrowBoxes {
         const Double8 first = at_v[i] >= v_least ? least : high + 1.0;
         const Double8 end = shifted_down(smaller(larger(last, low - 1.0), high)) + (1.0 - base);
         const Double8 from = smaller(shifted_up(smaller(larger(first, low), high + 1.0)) - base, end);
-        bits[j][i] = bit_at(end) - bit_at(from);
+        bits[j][i] = reinterpret_cast<Long8>(bit_at(end) - bit_at(from));
       }
     }
   }
@@ -120,7 +120,6 @@ constexpr int lanes = 8;
 
 /// Runs of up to 32 voxels lie within two words each and are set without a branch, longer ones word by word.
 inline void set_rows(const FourRows& four, const TileRows& tile) {
-  const Long4 one = Long4{} + 1;
   const long long last_pair = static_cast<long long>(tile.words_per_row) - 2;
   const Long4 word = smaller(four.first >> 5, Long4{} + last_pair);
   const Long4 first = four.first - (word << 5), end = four.end - (word << 5);
@@ -132,7 +131,11 @@ inline void set_rows(const FourRows& four, const TileRows& tile) {
                  static_cast<int>(four.end[i]) - 1);
     return;
   }
-  const Long4 bits = ((one << (end & 63)) - (one << (first & 63))) & four.marked;
+  // Unsigned: a run may end at bit 63.
+  const ULong4 one = ULong4{} + 1;
+  const ULong4 run =
+      (one << reinterpret_cast<ULong4>(end & 63)) - (one << reinterpret_cast<ULong4>(first & 63));
+  const Long4 bits = reinterpret_cast<Long4>(run) & four.marked;
   uint32_t beside[2] = {};
   uint32_t* row = tile.row(four.v, four.w);
   for (int i = 0; i < 4; ++i, row += tile.words_per_row)

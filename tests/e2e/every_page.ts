@@ -73,11 +73,19 @@ export async function goThroughEveryPage(
   await page.getByTestId('practise').click();
   await page.waitForFunction(() => window.__ream.deviceLink === 'holding', null, { timeout: 60_000 });
   await look('practice');
+  // What is reamed by hand counts for a course of learning; demos do not.
+  await assignSession(page, await page.evaluate(() => window.__ream.sessionId ?? ''), tom);
+  await page.getByTestId('bone-canvas').focus();
+  await page.keyboard.press('s');
+  await page.keyboard.down(' ');
+  const removedMm3 = async () => parseFloat((await page.getByTestId('removed-volume').textContent()) ?? '');
+  await expect.poll(removedMm3, { timeout: 120_000 }).toBeGreaterThan(1);
+  await page.keyboard.up(' ');
   await page.getByTestId('stop').click();
   await expect(page.getByTestId('practice-bar')).toBeHidden();
 
   await open('#/');
-  await expect(page.getByTestId(`points-${ended}`)).toHaveText(/^\d+$/, { timeout: 60_000 });
+  await expect(page.getByTestId(`points-${ended}`)).toHaveText(/^\d+\.\d$/, { timeout: 60_000 });
   await expect(page.getByTestId('standing')).toBeVisible();
   await page.getByText('As a table').click();
   await look('dashboard-learning');
