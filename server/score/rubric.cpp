@@ -1,5 +1,6 @@
 #include "score/rubric.hpp"
 
+#include <cmath>
 #include <rubrics.hpp>
 #include <set>
 
@@ -112,6 +113,9 @@ json rubric_json(const Rubric& rubric) {
   if (rubric.pass_points) value["pass_points"] = *rubric.pass_points;
   return value;
 }
+
+// A hair above, so that what is a tenth but for the sum's own rounding stays one.
+double rounded_points(double points) { return std::floor(points * 10.0 + 1e-6) / 10.0; }
 
 uint64_t rubric_hash(const Rubric& rubric) { return hash_text(rubric_json(rubric).dump()); }
 

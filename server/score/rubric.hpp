@@ -55,6 +55,9 @@ Rubric load_rubric(const std::filesystem::path& path);
 Rubric rubric_from_json(const nlohmann::json& value, const std::string& place);
 nlohmann::json rubric_json(const Rubric& rubric);
 
+/// Points as everybody reads them: rounded down to a tenth, so never up to a mark.
+double rounded_points(double points);
+
 /// Of all that a rubric says, its name and version included.
 uint64_t rubric_hash(const Rubric& rubric);
 

@@ -1,7 +1,6 @@
 #include "score/rubric_score.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
@@ -104,9 +103,6 @@ std::optional<Outcome> outcome_of(const Rubric& rubric, Score& score) {
 }
 
 }  // namespace
-
-// A hair above, so that what is a tenth but for the sum's own rounding stays one.
-double rounded_points(double points) { return std::floor(points * 10.0 + 1e-6) / 10.0; }
 
 double points_of(const Criterion& criterion, double value) {
   if (!criterion.curve.empty()) return points_by(criterion.curve, value);

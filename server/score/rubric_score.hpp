@@ -36,9 +36,6 @@ struct Score {
 /// `metrics` as metrics.json has them. Error invalid_input when the rubric names a metric that there is not.
 Score apply_rubric(const Rubric& rubric, const nlohmann::json& metrics);
 
-/// Points as everybody reads them: rounded down to a tenth, so never up to a mark.
-double rounded_points(double points);
-
 /// Points of a value, 0 to 100.
 double points_of(const Criterion& criterion, double value);
 

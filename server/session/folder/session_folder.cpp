@@ -11,7 +11,7 @@
 #include "core/log.hpp"
 #include "core/new_id.hpp"
 #include "core/text.hpp"
-#include "score/rubric_score.hpp"
+#include "score/rubric.hpp"
 #include "session/folder/session_labels.hpp"
 #include "session/folder/timing_file.hpp"
 
