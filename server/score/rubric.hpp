@@ -29,8 +29,8 @@ struct Criterion {
   std::optional<Band> band;  ///< in place of the catalogue's
   double weight = 1.0;
   bool critical = false;  ///< whoever fails its band fails, whatever the points
-  std::vector<CurvePoint> curve =
-      {};                   ///< straight between its points, which ascend, and level beyond both ends
+  /// Straight between its points, which ascend, and level beyond both ends.
+  std::vector<CurvePoint> curve = {};
   std::string source = {};  ///< where curve, limits and weight come from; may be empty
 
   /// The band that holds: its own, or the catalogue's.
