@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "report/metric_tables.hpp"
 #include "report/number_text.hpp"
 #include "score/metric_catalogue.hpp"
 
@@ -42,14 +43,9 @@ constexpr Words words_of_metrics[] = {
     {"axial_thrust_peak_n", "Press less at the peaks: thrust went up to {}."},
 };
 
-double number_or_0(const json& metrics, const char* key) {
-  const auto found = metrics.find(key);
-  return found != metrics.end() && found->is_number() ? found->get<double>() : 0.0;
-}
-
 /// Too much was removed, rather than too little.
 bool went_too_far(const json& metrics) {
-  return number_or_0(metrics, "overreamed_volume_mm3") > number_or_0(metrics, "underreamed_volume_mm3");
+  return number_of(metrics, "overreamed_volume_mm3") > number_of(metrics, "underreamed_volume_mm3");
 }
 
 std::string filled(std::string_view words, const std::string& value) {
@@ -60,13 +56,11 @@ std::string filled(std::string_view words, const std::string& value) {
 }
 
 std::string depth_words(double error_mm, const json& metrics) {
-  const auto planned = metrics.find("depth_planned_mm"), reached = metrics.find("reaming_depth_mm");
-  const bool known =
-      planned != metrics.end() && planned->is_number() && reached != metrics.end() && reached->is_number();
-  const char* words = !known ? "Stop at the planned depth: the reaming is {} off."
-                      : reached->get<double>() > planned->get<double>()
-                          ? "Stop earlier: the reaming is {} deeper than planned."
-                          : "Go on to the planned depth: {} are missing.";
+  const std::optional<double> planned = number_of(metrics, "depth_planned_mm"),
+                              reached = number_of(metrics, "reaming_depth_mm");
+  const char* words = !planned || !reached  ? "Stop at the planned depth: the reaming is {} off."
+                      : *reached > *planned ? "Stop earlier: the reaming is {} deeper than planned."
+                                            : "Go on to the planned depth: {} are missing.";
   return filled(words, with_unit(error_mm, "mm"));
 }
 
@@ -74,10 +68,11 @@ std::string depth_words(double error_mm, const json& metrics) {
 std::string words_by_direction(const std::string& metric, double value, const json& metrics) {
   if (metric == "depth_error_mm") return depth_words(value, metrics);
   if (metric == "plan_overlap_percent")
-    return went_too_far(metrics) ? filled("Take less bone: {} are gone that the plan leaves.",
-                                          with_unit(number_or_0(metrics, "overreamed_volume_mm3"), "mm3"))
-                                 : filled("Take all that is planned: {} of it are left.",
-                                          with_unit(number_or_0(metrics, "underreamed_volume_mm3"), "mm3"));
+    return went_too_far(metrics)
+               ? filled("Take less bone: {} are gone that the plan leaves.",
+                        with_unit(number_of(metrics, "overreamed_volume_mm3").value_or(0.0), "mm3"))
+               : filled("Take all that is planned: {} of it are left.",
+                        with_unit(number_of(metrics, "underreamed_volume_mm3").value_or(0.0), "mm3"));
   if (metric == "axial_thrust_mean_n")
     return filled(value < experiments_thrust_n ? "Press harder while you cut: it was {} on average."
                                                : "Press less while you cut: it was {} on average.",

@@ -12,12 +12,6 @@ namespace {
 
 using score::Better;
 
-std::optional<double> number_of(const nlohmann::json& metrics, std::string_view key) {
-  const auto found = metrics.find(std::string(key));
-  if (found == metrics.end() || !found->is_number()) return std::nullopt;
-  return found->get<double>();
-}
-
 std::string value_in_words(const score::Metric& metric, double value) {
   switch (metric.style) {
     case score::Style::version: return case_::version_in_words(radians_from_degrees(value));
@@ -118,6 +112,12 @@ MetricLine line_of(const score::Metric& metric, const Material& material, std::v
 }
 
 }  // namespace
+
+std::optional<double> number_of(const nlohmann::json& metrics, std::string_view key) {
+  const auto found = metrics.find(std::string(key));
+  if (found == metrics.end() || !found->is_number()) return std::nullopt;
+  return found->get<double>();
+}
 
 std::vector<MetricTable> metric_tables(const Material& material, std::vector<std::string>& sources) {
   using Group = std::pair<const char*, score::MetricGroup>;

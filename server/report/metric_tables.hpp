@@ -1,10 +1,15 @@
 #pragma once
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "report/report.hpp"
 
 namespace ream::report {
+
+/// Value of a metric in metrics.json; empty where it is null or not there.
+std::optional<double> number_of(const nlohmann::json& metrics, std::string_view key);
 
 /// Three tables of all metrics (alignment, bone, handling); appends each source that is named to `sources`.
 std::vector<MetricTable> metric_tables(const Material& material, std::vector<std::string>& sources);
