@@ -34,6 +34,11 @@ test::SmallRun everything_on() {
   return {std::move(bone), plan, "ellipse 6,4 nipple 3,8", script, settings};
 }
 
+void turn_spindle(const sim::Model& model, sim::State& state) {
+  const double full_rad_s = model.settings.feed.spindle_rad_s;
+  state.spindle.advance(full_rad_s, full_rad_s, state.spindle_load);
+}
+
 /// One tick in the order of sim::step; returns the time of the parts that make force and motion, without
 /// those that find contact and remove bone.
 double force_us(const sim::Model& model, sim::State& state, const device::DeviceInput& input,
@@ -45,6 +50,7 @@ double force_us(const sim::Model& model, sim::State& state, const device::Device
   const auto begin = SteadyClock::now();
   device::DeviceInput allowed = input;
   allowed.world_from_handle = sim::guided(model, state, input.world_from_handle);
+  turn_spindle(model, state);
   double spent_us = elapsed_us(begin);
 
   const sim::Approach found = sim::approach(model, state, allowed.world_from_handle);
@@ -56,6 +62,7 @@ double force_us(const sim::Model& model, sim::State& state, const device::Device
   sim::move_bone(model, state, load, report.engaged);
   sim::keep_in_guide(model, state);
   state.thrust_n = report.thrust_n;
+  state.spindle_load = load.spindle;
   spent_us += elapsed_us(pressing);
 
   report.grid_from_tool = quantised(state.world_from_grid.inverse() * state.world_from_tool);
@@ -73,6 +80,8 @@ std::vector<Row> force_cost_rows() {
   test::SmallRun run = everything_on();
   run.state.world_from_tool = run.model.world_from_plan * Pose{Mat3::Identity(), Vec3(0, 0, -0.5)};
   run.state.started = true;
+  // It turns before it touches.
+  for (int tick = 0; tick < warm_ticks; ++tick) turn_spindle(run.model, run.state);
   std::vector<double> us;
   record::TickReport report;
   int cutting_ticks = 0;
