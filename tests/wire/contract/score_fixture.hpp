@@ -18,9 +18,13 @@ class ScoreTest : public ContractTest {
   /// `size`: of what its metrics say; created on that day of January.
   void put_session(const std::string& id, double size, int day, const json& more = json::object()) {
     const std::string date = (day < 10 ? "0" : "") + std::to_string(day);
-    json session = {{"case", "planned"},  {"script", "demo"},     {"device", "browser"},
-                    {"state", "stopped"}, {"created_utc", "2026-01-" + date + "T12:00:00.000Z"},
-                    {"ticks", 5000},      {"trainee_id", "tina"}};
+    json session = {{"case", "planned"},
+                    {"script", "demo"},
+                    {"device", "browser"},
+                    {"state", "stopped"},
+                    {"created_utc", "2026-01-" + date + "T12:00:00.000Z"},
+                    {"ticks", 5000},
+                    {"trainee_id", "tina"}};
     session.merge_patch(more);
     folder.write("sessions/" + id + "/session.json", session.dump());
     folder.write("sessions/" + id + "/metrics.json", some_metrics(size).dump());
