@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "ct/build/surface_ramp.hpp"
 #include "ct/hu_volume.hpp"
 #include "ct/segment/voxel_window.hpp"
 #include "voxel/bricks.hpp"
@@ -100,15 +101,6 @@ void check_size(const Vec3i& dims, int n) {
                                               "interest or a smaller factor");
 }
 
-/// Interpolation makes of the scan's one voxel at the surface a ramp of `n`. Contact and removal need one a
-/// voxel wide, with the surface where it was.
-void sharpen(std::vector<uint8_t>& coverage, int n) {
-  std::array<uint8_t, 256> sharp;
-  for (int c = 0; c < 256; ++c)
-    sharp[static_cast<size_t>(c)] = static_cast<uint8_t>(std::clamp((255 + n * (2 * c - 255)) / 2, 0, 255));
-  for (uint8_t& c : coverage) c = sharp[c];
-}
-
 /// Both upsampled and padded to whole bricks.
 voxel::BoneModel upsampled(const HuVolume& volume, SurfaceVoxels surface, int n,
                            const case_::Calibration& calibration, const Progress& progress) {
@@ -126,7 +118,7 @@ voxel::BoneModel upsampled(const HuVolume& volume, SurfaceVoxels surface, int n,
   progress(0.1, "upsampling the surface");
   std::vector<uint8_t> coverage =
       voxel::upsample_trilinear(std::span<const uint8_t>(surface.coverage), to, n);
-  sharpen(coverage, n);
+  redraw_surface_ramp(bone.grid, coverage);
   bone.coverage = voxel::bricks_from_rows(bone.grid, coverage);
   progress(0.4, "upsampling the density");
   bone.density = voxel::bricks_from_rows(
@@ -186,8 +178,9 @@ voxel::BoneModel bone_from_mask(const HuVolume& volume, const Mask& mask, const 
   if (around.dims.isZero()) throw Error(ErrorKind::invalid_input, "the segmentation holds no bone");
   Mask whole = cut_out(mask, volume.dims, around);
   fill_voids(whole, around.dims);
-  VoxelWindow kept = around;
-  if (settings.roi_mm) kept = common(around, window_of_box(volume, *settings.roi_mm));
+  // The voxels just outside the mask are partly bone, too.
+  VoxelWindow kept{around.low - Vec3i::Ones(), around.dims + Vec3i::Constant(2)};
+  if (settings.roi_mm) kept = common(kept, window_of_box(volume, *settings.roi_mm));
   if ((kept.dims.array() <= 0).any())
     throw Error(ErrorKind::invalid_input, "the region of interest holds no bone; move it over the glenoid");
   check_size(kept.dims, settings.upsample);
