@@ -9,9 +9,11 @@ namespace {
 
 constexpr int block_edge = 4;
 constexpr double coarse_step_mm = 0.02;
-/// A tool on its way out brushes bricks whose turn does not come before it has gone: 128 are cut in a tick,
-/// and the largest tool of these tests has some 6,000 near it.
-constexpr size_t ticks_to_every_turn = 50;
+/// A tool on its way out brushes bricks whose turn does not come before it has gone: 128 are cut in a tick, a
+/// quarter of that in ticks that list the near ones anew, and the largest tool of these tests has 3,600 near
+/// it. While it draws back it moves by some micrometres from turn to turn, so it must have gone on for twice
+/// as long.
+constexpr size_t ticks_to_every_turn = 70;
 
 /// Upper bound of how far any point of the body moves between two poses.
 double motion_mm(const Pose& a, const Pose& b, double size_mm) {

@@ -55,4 +55,29 @@ Regression regression(std::span<const double> x, std::span<const double> y) {
   return r;
 }
 
+double two_sided_t(double p, int freedom) {
+  double low = 0.0, high = 1.0;
+  while (two_sided_p(high, freedom) > p) high *= 2.0;
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = 0.5 * (low + high);
+    (two_sided_p(middle, freedom) > p ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+Interval prediction_95(std::span<const double> x, std::span<const double> y, double at) {
+  const Regression r = regression(x, y);
+  const double mx = mean(x), n = static_cast<double>(x.size());
+  double left = 0.0, xx = 0.0;
+  for (size_t i = 0; i < x.size(); ++i) {
+    const double off = y[i] - (r.slope * x[i] + r.intercept);
+    left += off * off;
+    xx += (x[i] - mx) * (x[i] - mx);
+  }
+  const double deviation_of_one = std::sqrt(left / (n - 2.0) * (1.0 + 1.0 / n + (at - mx) * (at - mx) / xx));
+  const double reach = two_sided_t(0.05, static_cast<int>(x.size()) - 2) * deviation_of_one;
+  const double middle = r.slope * at + r.intercept;
+  return {middle - reach, middle, middle + reach};
+}
+
 }  // namespace ream::bench

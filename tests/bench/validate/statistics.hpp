@@ -22,4 +22,14 @@ Regression regression(std::span<const double> x, std::span<const double> y);
 /// Abramowitz & Stegun 26.7.3 and 26.7.4.
 double two_sided_p(double t, int freedom);
 
+/// The t that is exceeded on either side with chance `p`, above 0 and below 1.
+double two_sided_t(double p, int freedom);
+
+struct Interval {
+  double low = 0.0, middle = 0.0, high = 0.0;
+};
+
+/// Where 95 % of new y at `at` lie by the regression of y on x. Needs at least three points.
+Interval prediction_95(std::span<const double> x, std::span<const double> y, double at);
+
 }  // namespace ream::bench

@@ -13,6 +13,8 @@ std::vector<Row> feed_rows(const Options& options, Plots& plots);
 std::vector<Row> steady_rows(const Options& options);
 /// The experiments' protocol on layered slabs: figures 5.2 and 5.3.
 std::vector<Row> protocol_rows(const Options& options, Plots& plots);
+/// The model that a session has unless it says otherwise, with the thesis' reamer and with flat punches.
+std::vector<Row> edge_rows(const Options& options);
 /// A minute of each bone's vibration: table 5.2 and figures 5.6 to 5.9.
 std::vector<Row> vibration_rows(const Options& options, Plots& plots);
 

@@ -10,6 +10,7 @@ std::vector<Row> validate_suite(const Options& options) {
   const auto append = [&rows](std::vector<Row> more) {
     rows.insert(rows.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
   };
+  append(edge_rows(options));
   append(steady_rows(options));
   append(protocol_rows(options, plots));
   append(vibration_rows(options, plots));

@@ -76,5 +76,21 @@ TEST(PublishedBone, SpecimenFactorsAreThoseOfTheTable) {
   }
 }
 
+TEST(Statistics, QuantilesOfStudentsTAreThoseOfTables) {
+  EXPECT_NEAR(two_sided_t(0.05, 3), 3.182446, 1e-6);
+  EXPECT_NEAR(two_sided_t(0.05, 4), 2.776445, 1e-6);
+  EXPECT_NEAR(two_sided_t(0.01, 10), 3.169273, 1e-6);
+}
+
+TEST(Statistics, APredictionIntervalIsThatOfTheTextbook) {
+  // Five points about y = x: residuals 0, 0.1, -0.2, 0.1, 0 (sums 0 and 0 with x), so s^2 = 0.06 / 3.
+  const std::array<double, 5> x{1, 2, 3, 4, 5}, y{1.0, 2.1, 2.8, 4.1, 5.0};
+  const Interval at = prediction_95(x, y, 5.0);
+  EXPECT_NEAR(at.middle, 5.0, 1e-12);
+  const double reach = 3.182446 * std::sqrt(0.02 * (1.0 + 0.2 + 0.4));
+  EXPECT_NEAR(at.high - at.middle, reach, 1e-6);
+  EXPECT_NEAR(at.middle - at.low, reach, 1e-6);
+}
+
 }  // namespace
 }  // namespace ream::bench

@@ -7,37 +7,15 @@
 
 #include "force/coefficients.hpp"
 #include "force/edge_load.hpp"
+#include "support/bone_post.hpp"
 #include "support/small_run.hpp"
 
 namespace ream::test {
 namespace {
 
-constexpr double post_top_mm = 9.0, post_voxel_mm = 0.3;
 constexpr double pressed_n = 52.0, hard_g_cc = 1.5;
 /// Of the thesis: eq. 5.1 at 1.5 g/cc; lips; edge engaged in its experiments as the model takes it.
 constexpr double law_mm_s = 0.035, lips = 5.0, reference_edge_mm = 70.5;
-
-/// Bone whose cross-section has this signed distance (mm, negative inside) from its border, plan frame.
-voxel::BoneModel post(const std::function<double(double, double)>& outside_mm, double density_g_cc) {
-  voxel::BoneModel bone = slab({136, 136, 48}, post_voxel_mm, post_top_mm, density_g_cc);
-  const Pose plan_from_world = sim::world_from_plan(slab_plan(bone, post_top_mm)).inverse();
-  for (int w = 0; w < 48; ++w)
-    for (int v = 0; v < 136; ++v)
-      for (int u = 0; u < 136; ++u) {
-        const Vec3 at = plan_from_world.point(
-            bone.grid.world_from_grid.point((Vec3(u, v, w) + Vec3::Constant(0.5)) * post_voxel_mm));
-        const double kept =
-            std::clamp(127.5 - 255.0 * outside_mm(at.x(), at.y()) / post_voxel_mm, 0.0, 255.0);
-        uint8_t& coverage = bone.coverage[bone.grid.index(u, v, w)];
-        coverage = std::min(coverage, static_cast<uint8_t>(kept));
-      }
-  return bone;
-}
-
-voxel::BoneModel round_post(double area_mm2, double aside_mm, double density_g_cc = hard_g_cc) {
-  const double radius_mm = std::sqrt(area_mm2 / pi);
-  return post([=](double x, double y) { return std::hypot(x - aside_mm, y) - radius_mm; }, density_g_cc);
-}
 
 /// The second half of two seconds of pressing.
 struct Pressing {
@@ -75,7 +53,7 @@ TEST(EdgeFeed, AConcentricPunchFeedsByItsRadius) {
   // Edge of a disc of radius R: integral of lips / (2 pi r) 2 pi r dr.
   for (const double area_mm2 : {30.0, 100.0, 300.0, 600.0}) {
     const double edge_mm = lips * std::sqrt(area_mm2 / pi);
-    const Pressing steady = press(round_post(area_mm2, 0.0), flat_tool);
+    const Pressing steady = press(round_post(area_mm2, 0.0, hard_g_cc), flat_tool);
     EXPECT_NEAR(steady.feed_mm_s, law_mm_s * reference_edge_mm / edge_mm,
                 0.05 * law_mm_s * reference_edge_mm / edge_mm)
         << area_mm2;
@@ -95,10 +73,12 @@ TEST(EdgeFeed, ARemovedVolumeCostsTheSameInEveryContact) {
   const double j_mm3 = 1e-3 * pressed_n / reference_edge_mm * lips * turns_a_second / law_mm_s;
   EXPECT_NEAR(j_mm3, 0.27, 0.01);
   for (const double area_mm2 : {30.0, 100.0, 300.0, 600.0})
-    EXPECT_NEAR(press(round_post(area_mm2, 0.0), flat_tool).energy_j_mm3, j_mm3, 0.1 * j_mm3) << area_mm2;
-  EXPECT_NEAR(press(round_post(50.0, 9.0), flat_tool).energy_j_mm3, j_mm3, 0.2 * j_mm3) << "it walks";
+    EXPECT_NEAR(press(round_post(area_mm2, 0.0, hard_g_cc), flat_tool).energy_j_mm3, j_mm3, 0.1 * j_mm3)
+        << area_mm2;
+  EXPECT_NEAR(press(round_post(50.0, 9.0, hard_g_cc), flat_tool).energy_j_mm3, j_mm3, 0.2 * j_mm3)
+      << "it walks";
   for (const double force_n : {5.0, 120.0})
-    EXPECT_NEAR(press(round_post(100.0, 0.0), flat_tool, force_n).energy_j_mm3, j_mm3, 0.1 * j_mm3)
+    EXPECT_NEAR(press(round_post(100.0, 0.0, hard_g_cc), flat_tool, force_n).energy_j_mm3, j_mm3, 0.1 * j_mm3)
         << force_n;
   for (const double density_g_cc : {0.41, 0.72, 1.0, 1.3, 1.61, 1.9}) {
     const double cost = press(round_post(100.0, 0.0, density_g_cc), flat_tool).energy_j_mm3;
@@ -110,7 +90,7 @@ TEST(EdgeFeed, ARemovedVolumeCostsTheSameInEveryContact) {
 
 TEST(EdgeFeed, OffTheAxisItFeedsFastAndPullsAcrossTheTurn) {
   constexpr double aside_mm = 9.0, area_mm2 = 50.0;
-  const Pressing steady = press(round_post(area_mm2, aside_mm), flat_tool);
+  const Pressing steady = press(round_post(area_mm2, aside_mm, hard_g_cc), flat_tool);
   const double feed_mm_s = law_mm_s * reference_edge_mm / (lips * area_mm2 / (2.0 * pi * aside_mm));
   EXPECT_NEAR(steady.feed_mm_s, feed_mm_s, 0.12 * feed_mm_s);
   // Lips pass the post from +x towards +y and are held back there: the tool goes the other way, until the
@@ -127,25 +107,9 @@ TEST(EdgeFeed, OffTheAxisItFeedsFastAndPullsAcrossTheTurn) {
 }
 
 TEST(EdgeFeed, TheThesisReamerFullySeatedFeedsAsItMeasured) {
-  const shell::ToolProfile profile = shell::make_tool("thesis-appendix-a").profile;
   for (const double density_g_cc : {0.42, 0.55, 0.70, 1.32, 1.45, 1.60}) {
     const double law = density_g_cc < 1.0 ? -0.34 * density_g_cc + 0.42 : -0.05 * density_g_cc + 0.11;
-    // A face of 37.5 x 24.4 mm that has the reamer's shape: it is seated from the first touch.
-    voxel::BoneModel bone = post(
-        [](double x, double y) {
-          const double scale = std::hypot(x / 18.75, y / 12.2);
-          return (scale - 1.0) * std::hypot(x, y) / std::max(scale, 1e-9);
-        },
-        density_g_cc);
-    const Pose plan_from_world = sim::world_from_plan(slab_plan(bone, post_top_mm)).inverse();
-    for (size_t i = 0; i < bone.coverage.size(); ++i) {
-      const Vec3 centre = (bone.grid.coordinates(i).cast<double>() + Vec3::Constant(0.5)) * post_voxel_mm;
-      const Vec3 at = plan_from_world.point(bone.grid.world_from_grid.point(centre));
-      const double above = shell::swept_distance_mm(profile, std::hypot(at.x(), at.y()), at.z() - 9.0 + 1.0);
-      const double left = std::clamp(127.5 + 255.0 * above / post_voxel_mm, 0.0, 255.0);
-      bone.coverage[i] = std::min(bone.coverage[i], static_cast<uint8_t>(left));
-    }
-    const Pressing steady = press(std::move(bone), "thesis-appendix-a");
+    const Pressing steady = press(seated_face(density_g_cc), "thesis-appendix-a");
     EXPECT_NEAR(steady.feed_mm_s, law, 0.02 * law) << density_g_cc;
     EXPECT_GT(steady.last.spindle_torque_n_mm, 240.0) << density_g_cc;
     EXPECT_LT(steady.last.spindle_torque_n_mm, 900.0) << density_g_cc;
