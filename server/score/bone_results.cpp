@@ -13,6 +13,8 @@ namespace ream::score {
 namespace {
 
 constexpr int directions = 360;
+/// Rim points farther than this from its plane lie on a ledge or a wall.
+constexpr double rim_bound_mm = 0.25;
 constexpr double inside_rim_mm = 1.0;
 /// Around the component's middle, where the bone left under it is looked at.
 constexpr double middle_mm = 6.0;
@@ -91,10 +93,9 @@ std::optional<Vec3> rim_normal(const NativeGlenoid& native, const AchievedFace& 
   for (int i = 0; i < directions; ++i)
     if (const auto point = rim_point(rays, face, reamed_depth_mm, middle, 2.0 * pi * i / directions))
       rim.push_back(*point);
-  const auto plane = fit_plane(rim);
-  if (!plane || rim.size() < directions / 2) return std::nullopt;
-  const Vec3 normal = rays.world_direction(plane->normal);
-  return plane->normal.z() > 0.0 ? Vec3(-normal) : normal;
+  if (rim.size() < directions / 2) return std::nullopt;
+  const auto medial = fit_depth_plane(rim, rim_bound_mm);
+  return medial ? std::optional(rays.world_direction(-*medial)) : std::nullopt;
 }
 
 /// Greatest and mean depth, medialization, footprint.

@@ -88,7 +88,7 @@ constexpr Metric catalogue[] = {
      alignment, achieved_axis, angle_size, at_most(5.0, 10.0)},
     {"version_rim_deg", "Version of the rim", "deg",
      "Version of the plane that fits the rim of what was reamed, by 360 points at equal angles about its "
-     "middle.",
+     "middle; ledges and walls count little (Huber, 0.25 mm).",
      scapular_plane, judgement, rim_depends, alignment, reamed_bone, any_angle, only_reported, no_aim,
      version},
     {"inclination_rim_deg", "Inclination of the rim", "deg",

@@ -82,13 +82,28 @@ std::optional<FittedSphere> fit_sphere(std::span<const Vec3> points) {
   return sphere;
 }
 
-std::optional<FittedPlane> fit_plane(std::span<const Vec3> points) {
+std::optional<Vec3> fit_depth_plane(std::span<const Vec3> points, double bound_mm) {
   if (points.size() < 3) return std::nullopt;
   const Vec3 mean = mean_of(points);
-  const auto axes = spread_of(points, mean);
-  if (axes.info() != Eigen::Success || !(axes.eigenvalues()[1] > 1e-6 * axes.eigenvalues()[2]))
-    return std::nullopt;
-  return FittedPlane{mean, axes.eigenvectors().col(0)};
+  Vec3 plane = Vec3::Zero();  // height at the mean, slopes along x and y
+  for (int step = 0; step < max_steps; ++step) {
+    Mat3 a = Mat3::Zero();
+    Vec3 b = Vec3::Zero();
+    for (const Vec3& point : points) {
+      const Vec3 p = point - mean, row(1.0, p.x(), p.y());
+      const double off = std::abs(p.z() - plane.dot(row));
+      const double weight = step == 0 || off <= bound_mm ? 1.0 : bound_mm / off;
+      a += weight * row * row.transpose();
+      b += weight * p.z() * row;
+    }
+    const Eigen::SelfAdjointEigenSolver<Mat3> spread(a);
+    if (!(spread.eigenvalues()[0] > flat * spread.eigenvalues()[2])) return std::nullopt;
+    const Vec3 next = a.ldlt().solve(b);
+    const double change = (next - plane).norm();
+    plane = next;
+    if (change < settled_mm) break;
+  }
+  return Vec3(-plane.y(), -plane.z(), 1.0).normalized();
 }
 
 }  // namespace ream::score

@@ -16,11 +16,10 @@ struct FittedSphere {
 /// or a line, or a radius over 500 mm.
 std::optional<FittedSphere> fit_sphere(std::span<const Vec3> points_mm);
 
-struct FittedPlane {
-  Vec3 middle_mm = Vec3::Zero(), normal = Vec3::UnitZ();  ///< unit, of either sign
-};
-
-/// The plane with least squares of distance. Empty for fewer than three points or points of a line.
-std::optional<FittedPlane> fit_plane(std::span<const Vec3> points_mm);
+/// Unit normal, z positive, of the plane z = a + b x + c y that fits the points by Huber's loss: squares up
+/// to `bound_mm`, linear beyond, so that a few points that lie elsewhere turn it little, and no choice of
+/// points makes it jump (Huber, Annals of Mathematical Statistics 35, 1964). Empty for fewer than three
+/// points or points over a line.
+std::optional<Vec3> fit_depth_plane(std::span<const Vec3> points_mm, double bound_mm);
 
 }  // namespace ream::score

@@ -322,7 +322,7 @@ void fit_rim(const PlannedReaming& planned, const Reamed& reamed, const std::vec
     const double angle = 2.0 * pi * i / 180.0;
     const Vec3 out = std::cos(angle) * turn.col(0) + std::sin(angle) * turn.col(1);
     double last = 0.0;
-    const auto poll_output = [&](double r) {
+    const auto reamed_at = [&](double r) {
       Line line;
       line.point = middle + r * out;
       line.direction = along;
@@ -334,11 +334,11 @@ void fit_rim(const PlannedReaming& planned, const Reamed& reamed, const std::vec
       return false;
     };
     for (double r = planned.reamer.outer_mm + 4.0; r > 0.0; r -= 0.2)
-      if (poll_output(r)) break;
+      if (reamed_at(r)) break;
     double beyond = last + 0.2;
     for (int halving = 0; halving < 12; ++halving) {
       const double r = 0.5 * (last + beyond);
-      if (!poll_output(r)) beyond = r;
+      if (!reamed_at(r)) beyond = r;
     }
     Line inside;
     inside.point = middle + (last - inside_rim_mm) * out;
@@ -346,11 +346,33 @@ void fit_rim(const PlannedReaming& planned, const Reamed& reamed, const std::vec
     reamed.look_along(inside);
     if (is_reamed(inside)) points.emplace_back(inside.point + inside.after * along);
   }
-  Eigen::MatrixXd rim(3, points.size());
-  for (size_t i = 0; i < points.size(); ++i) rim.col(static_cast<Eigen::Index>(i)) = points[i];
-  const Eigen::MatrixXd centred = rim.colwise() - rim.rowwise().mean();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(centred, Eigen::ComputeThinU);
-  Vec3 axis = svd.matrixU().col(2);
+  // Depth along the plan's axis over the plane across it, by Huber's loss with 0.25 mm: Newton's steps on the
+  // loss itself, each no longer than lowers it.
+  Eigen::MatrixXd over(points.size(), 3);
+  Eigen::VectorXd depth(points.size());
+  for (size_t i = 0; i < points.size(); ++i) {
+    const Vec3 p = turn.transpose() * (points[i] - middle);
+    over.row(static_cast<Eigen::Index>(i)) << p.x(), p.y(), 1.0;
+    depth[static_cast<Eigen::Index>(i)] = p.z();
+  }
+  const auto loss = [&](const Vec3& plane) {
+    return (depth - over * plane)
+        .unaryExpr([](double r) { return std::abs(r) <= 0.25 ? 0.5 * r * r : 0.25 * (std::abs(r) - 0.125); })
+        .sum();
+  };
+  Vec3 plane = over.colPivHouseholderQr().solve(depth);
+  for (int newton = 0; newton < 200; ++newton) {
+    const Eigen::VectorXd left = depth - over * plane;
+    const Eigen::VectorXd pull = left.cwiseMax(-0.25).cwiseMin(0.25);
+    const Eigen::VectorXd bends = (left.array().abs() <= 0.25).cast<double>();
+    const Mat3 curvature = over.transpose() * bends.asDiagonal() * over +
+                           1e-6 * static_cast<double>(points.size()) * Mat3::Identity();
+    Vec3 step = curvature.ldlt().solve(over.transpose() * pull);
+    while (step.norm() > 1e-12 && loss(plane + step) > loss(plane)) step *= 0.5;
+    if (step.norm() < 1e-12) break;
+    plane += step;
+  }
+  Vec3 axis = turn * Vec3(-plane.x(), -plane.y(), 1.0).normalized();
   if (axis.dot(along) < 0.0) axis = -axis;
   std::tie(truth.rim_version_deg, truth.rim_inclination_deg) = reamed.glenoid().angles_deg(axis);
 }

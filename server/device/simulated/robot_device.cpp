@@ -18,7 +18,7 @@ constexpr double turn_stiffness_n_mm_rad = 5.0e4, turn_damping_n_mm_s_rad = 500.
 
 /// The experiments' robot (thesis 5.1) as an admittance device: it drives along its line until something
 /// holds it up, then presses with a force that rises linearly and stays, and when the tool has advanced far
-/// enough it withdraws to where it began.
+/// enough from there it withdraws to where it began.
 class RobotDevice final : public ScriptedDevice {
  public:
   RobotDevice(const Script& script, const Pose& world_from_plan)
@@ -43,6 +43,7 @@ class RobotDevice final : public ScriptedDevice {
   void begin() noexcept override {
     last_s_ = 0.0;
     handle_.begin({held_, robot_.start_mm});
+    from_mm_ = 0.0;
     enter(Phase::approach, 0.0);
   }
 
@@ -50,7 +51,6 @@ class RobotDevice final : public ScriptedDevice {
     phase_ = phase;
     since_s_ = t_s;
     moved_s_ = t_s;
-    from_mm_ = along_mm();
   }
 
   /// A pause stops the robot's clock too; a pause of the session, the script's as well.
@@ -71,7 +71,10 @@ class RobotDevice final : public ScriptedDevice {
   }
 
   bool held_up(double t_s) noexcept {
-    if (held_.col(2).dot(handle_.velocity_mm_s()) > 0.5 * robot_.approach_mm_s) moved_s_ = t_s;
+    if (held_.col(2).dot(handle_.velocity_mm_s()) > 0.5 * robot_.approach_mm_s) {
+      moved_s_ = t_s;
+      from_mm_ = along_mm();
+    }
     return t_s - since_s_ > under_way_after_s && t_s - moved_s_ > contact_after_s;
   }
 
@@ -107,7 +110,8 @@ class RobotDevice final : public ScriptedDevice {
   double line_damping_n_s_mm_;
   CommandedPose handle_;
   Phase phase_ = Phase::approach;
-  double since_s_ = 0.0, moved_s_ = 0.0, from_mm_ = 0.0, last_s_ = 0.0;
+  double since_s_ = 0.0, moved_s_ = 0.0, last_s_ = 0.0;
+  double from_mm_ = 0.0;  ///< where it was held up
 };
 
 }  // namespace

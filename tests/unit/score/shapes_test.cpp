@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include "core/units.hpp"
 #include "score/cutting_surface.hpp"
 #include "score/sphere_fit.hpp"
 #include "score/vault_clearance.hpp"
@@ -74,16 +75,28 @@ TEST(SphereFit, OfWhatIsNoSphereIsNotSaid) {
   EXPECT_FALSE(fit_sphere(std::vector<Vec3>(50, Vec3(1, 2, 3))));
 }
 
-TEST(PlaneFit, FindsAPlane) {
+TEST(DepthPlaneFit, FindsThePlaneThroughMostPoints) {
   std::mt19937 random(test::seed(16));
-  std::uniform_real_distribution<double> number(-10.0, 10.0);
-  const Pose pose = test::random_pose(random, 20.0);
+  std::uniform_real_distribution<double> number(-10.0, 10.0), rough(-0.05, 0.05);
   std::vector<Vec3> points;
-  for (int i = 0; i < 200; ++i) points.push_back(pose.point(Vec3(number(random), number(random), 0.0)));
-  const auto plane = fit_plane(points);
-  EXPECT_NEAR(std::abs(plane->normal.dot(pose.rotation.col(2))), 1.0, 1e-12);
-  EXPECT_FALSE(fit_plane(std::vector<Vec3>{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}}));
-  EXPECT_FALSE(fit_plane(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}}));
+  for (int i = 0; i < 400; ++i) {
+    const double x = number(random), y = number(random);
+    points.emplace_back(x, y, 3.0 + 0.2 * x - 0.1 * y + rough(random));
+  }
+  const Vec3 normal = Vec3(-0.2, 0.1, 1.0).normalized();
+  const auto turned = [&](const std::vector<Vec3>& from) {
+    return std::acos(std::min(1.0, fit_depth_plane(from, 0.25)->dot(normal))) * 180.0 / pi;
+  };
+  EXPECT_LT(turned(points), 0.1);
+  // A twentieth of them, all on one side, is 4 mm deeper. Least squares would turn by 0.9 degrees.
+  for (Vec3& p : points)
+    if (p.x() > 9.0) p.z() += 4.0;
+  EXPECT_LT(turned(points), 0.3);
+}
+
+TEST(DepthPlaneFit, OfALineThereIsNone) {
+  EXPECT_FALSE(fit_depth_plane(std::vector<Vec3>{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}}, 0.25));
+  EXPECT_FALSE(fit_depth_plane(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}}, 0.25));
 }
 
 TEST(Fixation, PointsLieOnPegsAndKeel) {
