@@ -78,6 +78,17 @@ test('a trainee takes part, trains and answers; who watches sees the code until 
   await trainee.getByTestId('stop').click();
   await expect(trainee.getByTestId('session-state')).toHaveAttribute('data-state', 'stopped');
 
+  // The way on leads to another attempt in the study, not out of it.
+  await expect(trainee.getByTestId('session-labels')).toContainText('in a study');
+  await expect(trainee.getByTestId('practise')).toHaveText('Practise outside the study');
+  await trainee.getByTestId('next-attempt').click();
+  await expect(trainee.getByTestId('session-state')).toHaveAttribute('data-state', 'running', { timeout: 60_000 });
+  const attempts = await trainee.evaluate(async () => (await fetch('/api/v1/sessions')).json());
+  const ofStudy = attempts.sessions.filter((session: { participant: string | null }) => session.participant !== null);
+  expect(ofStudy.map((session: { participant: string }) => session.participant)).toEqual([code, code]);
+  await trainee.getByTestId('stop').click();
+  await expect(trainee.getByTestId('session-state')).toHaveAttribute('data-state', 'stopped');
+
   // By keys alone: what is missing is said and gone to, then every statement is answered.
   await trainee.getByTestId('questionnaire-notice').getByRole('link').click();
   await expect(trainee.getByTestId('questionnaire')).toBeVisible();

@@ -52,6 +52,10 @@ export const appText = {
   whoLabel: 'You are',
 
   practise: 'Practise',
+  nextAttempt: 'Next attempt in this study',
+  practiseOutside: 'Practise outside the study',
+  practiseOutsideHint: 'That session does not count for the study.',
+  inStudy: 'in a study',
   practising: 'Practising…',
   takeOver: 'Take over',
   takeOverHint: 'Somebody practises on another page.',

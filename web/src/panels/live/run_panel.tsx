@@ -8,6 +8,7 @@ import type { Watcher } from '../../state/watcher';
 import { appText } from '../../text/app_text';
 import { SessionControls } from './session_controls';
 import { SessionLabels } from './session_labels';
+import { StartButtons } from './start_buttons';
 import { useIdentity } from '../common/site_nav';
 
 interface Parts {
@@ -30,17 +31,7 @@ export function RunPanel({ store, watcher, practice, practiceStore, theatreWante
     <section class="run" aria-label={appText.runDemo}>
       {may.ream && (
         <div class="run-buttons">
-          {!active && (
-            <button
-              type="button"
-              class="run-button"
-              data-testid="practise"
-              disabled={!idle}
-              onClick={() => void practise(watcher, practice, theatreWanted.value)}
-            >
-              {appText.practise}
-            </button>
-          )}
+          {!active && <StartButtons {...{ store, watcher, practice, idle, theatreWanted }} />}
           <button
             type="button"
             class={active ? 'run-button' : 'run-button run-second'}
@@ -70,11 +61,6 @@ export function RunPanel({ store, watcher, practice, practiceStore, theatreWante
       <SessionLabels store={store} />
     </section>
   );
-}
-
-async function practise(watcher: Watcher, practice: Practice, theatre: boolean): Promise<void> {
-  const sessionId = await watcher.practise('demo', theatre);
-  if (sessionId !== null) practice.steer(sessionId);
 }
 
 function TheatreChoice({ wanted }: { wanted: Signal<boolean> }) {

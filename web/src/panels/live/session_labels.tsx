@@ -31,8 +31,9 @@ export function SessionLabels({ store }: { store: Store }) {
   );
 }
 
-function labelsOf({ title, trainee, participant, attempt }: Session): string[] {
+function labelsOf({ title, trainee, participant, attempt, study }: Session): string[] {
   const labels = [
+    study ? appText.inStudy : '',
     title ? appText.titled(title) : '',
     trainee || participant ? appText.trainedBy(trainee || participant || '') : '',
     attempt > 1 ? appText.attempt(attempt) : '',
