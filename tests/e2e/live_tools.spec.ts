@@ -169,6 +169,16 @@ test('in theatre there is nothing but the bone, an opaque reamer, sound and forc
   await expect(page.getByTestId('sound')).toBeVisible();
   await untilStill(page);
   await page.screenshot({ path: info.outputPath('theatre.png') });
+  // A push is not given: it grows as long as it lasts, and passes what a plain one stops at.
+  const pushed = async (newtons: number) => {
+    await page.waitForFunction((n) => window.__ream.pushN > n, newtons, { timeout: 20_000 });
+  };
+  await page.locator('canvas').first().hover();
+  await page.mouse.down();
+  await pushed(5);
+  expect(await page.evaluate(() => window.__ream.pushN)).toBeLessThan(50);
+  await pushed(60);
+  await page.mouse.up();
   await page.keyboard.press('c');
   await page.evaluate(() => (window.location.hash = ''));
   await expect(theatre).toHaveAttribute('data-theatre', 'true');

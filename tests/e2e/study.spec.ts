@@ -83,9 +83,11 @@ test('a trainee takes part, trains and answers; who watches sees the code until 
   await expect(trainee.getByTestId('practise')).toHaveText('Practise outside the study');
   await trainee.getByTestId('next-attempt').click();
   await expect(trainee.getByTestId('session-state')).toHaveAttribute('data-state', 'running', { timeout: 60_000 });
-  const attempts = await trainee.evaluate(async () => (await fetch('/api/v1/sessions')).json());
-  const ofStudy = attempts.sessions.filter((session: { participant: string | null }) => session.participant !== null);
-  expect(ofStudy.map((session: { participant: string }) => session.participant)).toEqual([code, code]);
+  const attempts = await trainee.evaluate(async () => {
+    const answer = (await (await fetch('/api/v1/sessions')).json()) as { sessions: { participant: string | null }[] };
+    return answer.sessions.map((session) => session.participant);
+  });
+  expect(attempts.filter((participant) => participant !== null)).toEqual([code, code]);
   await trainee.getByTestId('stop').click();
   await expect(trainee.getByTestId('session-state')).toHaveAttribute('data-state', 'stopped');
 

@@ -196,6 +196,7 @@ async function goOnSteering(api: Api, store: Store, practice: Practice): Promise
   const session = await api.session(id).catch(() => null);
   if (session === null || !isActive(session)) return practice.forget();
   store.sessionId.value = id;
+  store.details.value = session;
   practice.steer(id);
 }
 

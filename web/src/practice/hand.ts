@@ -5,12 +5,23 @@ import { leanMaxDeg, limited, sidewaysMaxMm, type Beside, type PlanFrame } from 
 
 /** Force that a full push reaches, simulated N, as the person chooses it. */
 export const levelLeastN = 4;
-export const levelMostN = 80;
+export const levelMostN = 120;
 export const levelStepN = 4;
 /** The thrust at which the feed of reamed bone was measured. */
 const levelAtFirstN = 52;
 /** A push rises no faster than this; it ends at once. */
 const riseNPerS = 160;
+/** A free hand pushes harder the longer it pushes, and lets go as a hand does. */
+const freeRiseNPerS = 25;
+const freeFallNPerS = 60;
+/** Where a free hand begins beside the plan. */
+const freeStartMm: Between = { least: 4, most: 8 };
+const freeLeanDeg: Between = { least: 5, most: 10 };
+
+interface Between {
+  least: number;
+  most: number;
+}
 export const withdrawN = 20;
 
 /**
@@ -32,12 +43,17 @@ export class Hand {
   private readonly withdrawals = new Map<string, number>();
   /** Where the tool was put on purpose, not only in passing with the mouse. */
   private placedAt: Beside = { superior: 0, anterior: 0 };
+  private free = false;
 
-  /** A new session: over the plan, everything off. */
-  reset(): void {
+  /**
+   * A new session, everything off: over the plan, or as a `free` hand that is given nothing. That one begins beside the
+   * plan and leaning, by chance, and decides by itself how hard it pushes.
+   */
+  reset(free = false, random: () => number = Math.random): void {
     this.letGo();
-    this.place.value = this.placedAt = { superior: 0, anterior: 0 };
-    this.lean.value = { superior: 0, anterior: 0 };
+    this.free = free;
+    this.place.value = this.placedAt = free ? somewhere(freeStartMm, random) : onPlan;
+    this.lean.value = free ? somewhere(freeLeanDeg, random) : onPlan;
     this.irrigating.value = false;
     this.paused.value = false;
     this.held.value = true;
@@ -47,7 +63,8 @@ export class Hand {
   push(source: string, share: number): void {
     setShare(this.pushes, source, share);
     if (share > 0) this.placedAt = this.place.value;
-    if (this.wantedN() <= 0) this.pushN.value = this.wantedN();
+    const wantedN = this.wantedN();
+    if (wantedN < 0 || (wantedN === 0 && !this.free)) this.pushN.value = wantedN;
   }
 
   withdraw(source: string, share: number): void {
@@ -68,6 +85,13 @@ export class Hand {
 
   leanTo(lean: Beside): void {
     this.lean.value = limited(lean, leanMaxDeg);
+  }
+
+  /** Back onto the plan, which a free hand has to find. */
+  goHome(): void {
+    if (this.free) return;
+    this.putAt(onPlan, true);
+    this.leanTo(onPlan);
   }
 
   changeLevel(byN: number): void {
@@ -105,7 +129,11 @@ export class Hand {
   /** Lets the push rise towards what is wanted. */
   step(seconds: number): void {
     const wanted = this.wantedN();
-    this.pushN.value = wanted <= 0 ? wanted : Math.min(wanted, Math.max(this.pushN.value, 0) + riseNPerS * seconds);
+    const now = Math.max(this.pushN.value, 0);
+    if (wanted < 0 || (wanted === 0 && !this.free)) this.pushN.value = wanted;
+    else if (wanted >= now)
+      this.pushN.value = Math.min(wanted, now + (this.free ? freeRiseNPerS : riseNPerS) * seconds);
+    else this.pushN.value = this.free ? Math.max(wanted, now - freeFallNPerS * seconds) : wanted;
   }
 
   input(plan: PlanFrame): SteeringInput {
@@ -124,7 +152,7 @@ export class Hand {
     if (!this.held.value || this.paused.value) return 0;
     const back = Math.max(0, ...this.withdrawals.values());
     if (back > 0) return -back * withdrawN;
-    return Math.max(0, ...this.pushes.values()) * this.levelN.value;
+    return Math.max(0, ...this.pushes.values()) * (this.free ? levelMostN : this.levelN.value);
   }
 
   private stopPushing(): void {
@@ -132,6 +160,14 @@ export class Hand {
     this.withdrawals.clear();
     this.pushN.value = 0;
   }
+}
+
+const onPlan: Beside = { superior: 0, anterior: 0 };
+
+function somewhere({ least, most }: Between, random: () => number): Beside {
+  const far = least + (most - least) * random();
+  const way = 2 * Math.PI * random();
+  return { superior: far * Math.cos(way), anterior: far * Math.sin(way) };
 }
 
 function setShare(shares: Map<string, number>, source: string, share: number): void {

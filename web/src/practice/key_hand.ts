@@ -88,10 +88,7 @@ export class KeyHand {
       case '-':
         return () => hand.changeLevel(-levelStepN);
       case 'Home':
-        return () => {
-          hand.putAt({ superior: 0, anterior: 0 }, true);
-          hand.leanTo({ superior: 0, anterior: 0 });
-        };
+        return () => hand.goHome();
       default:
         return null;
     }

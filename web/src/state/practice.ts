@@ -87,10 +87,14 @@ export class Practice {
     this.window.remembered.removeItem(rememberedKey);
   }
 
-  /** Steers a session from here; another page that does so is sent away by the server. */
+  /**
+   * Steers a session from here; another page that does so is sent away by the server. In theatre the hand is given
+   * nothing.
+   */
   steer(sessionId: string): void {
     this.window.remembered.setItem(rememberedKey, sessionId);
-    this.practice.hand.reset();
+    const session = this.store.details.value;
+    this.practice.hand.reset(session?.id === sessionId && session.theatre);
     batch(() => {
       this.practice.sessionId.value = sessionId;
       this.practice.feedback.value = null;

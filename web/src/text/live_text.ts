@@ -101,8 +101,9 @@ export const liveText = {
   fullScreen: 'Full screen',
   endTheatre: 'End session',
   theatreMode: 'Theatre mode',
-  theatreShort: 'for Practise: no gauges, no plan',
-  theatreHint: 'The reamer is opaque, seen from the beach chair; no gauges, no plan: only sound and force.',
+  theatreShort: 'for Practise: no gauges, no plan, no help',
+  theatreHint:
+    'The reamer is opaque, seen from the beach chair; no gauges, no plan: only sound and force. It begins beside the plan and leaning, and the longer you push, the harder.',
 
   vaultWhy: 'The component’s pegs would go through the outer cortex, as the score says.',
 };

@@ -60,6 +60,39 @@ describe('Hand', () => {
     expect(hand.pushN.value).toBe(levelMostN);
   });
 
+  it('is given nothing when it is free: it begins beside the plan, leans, and pushes harder the longer it pushes', () => {
+    for (const chance of [0, 0.37, 0.999]) {
+      hand.reset(true, () => chance);
+      const away = Math.hypot(hand.place.value.superior, hand.place.value.anterior);
+      const leans = Math.hypot(hand.lean.value.superior, hand.lean.value.anterior);
+      expect(away).toBeGreaterThanOrEqual(4 - 1e-9);
+      expect(away).toBeLessThanOrEqual(8 + 1e-9);
+      expect(leans).toBeGreaterThanOrEqual(5 - 1e-9);
+      expect(leans).toBeLessThanOrEqual(10 + 1e-9);
+    }
+    const begun = hand.place.value;
+    hand.goHome();
+    expect(hand.place.value).toEqual(begun);
+
+    hand.takeHold();
+    hand.push('mouse', 1);
+    wait(2);
+    expect(hand.pushN.value).toBeCloseTo(50, -1);
+    hand.push('mouse', 0);
+    wait(0.5);
+    expect(hand.pushN.value).toBeCloseTo(20, -1);
+    hand.push('mouse', 1);
+    wait(60);
+    expect(hand.pushN.value).toBe(levelMostN);
+    hand.withdraw('mouse', 1);
+    wait(0.1);
+    expect(hand.pushN.value).toBe(-withdrawN);
+
+    hand.reset();
+    expect(hand.place.value).toEqual({ superior: 0, anterior: 0 });
+    expect(hand.lean.value).toEqual({ superior: 0, anterior: 0 });
+  });
+
   it('does nothing more once it lets go, and all has to be pressed anew', () => {
     hand.toggleSpindle();
     hand.push('mouse', 1);
