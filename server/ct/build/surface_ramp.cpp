@@ -50,7 +50,8 @@ uint8_t redrawn(const Rows& rows, double ramp_voxels, size_t at, const std::arra
     steepness_square += steepness * steepness;
   }
   const bool inside = here > 0;
-  const double most = 0.5 * ramp_voxels * std::sqrt(steepness_square);  // `here` at the end of the ramp
+  const double wide = inside ? std::max(1.0, ramp_voxels) : ramp_voxels;
+  const double most = 0.5 * wide * std::sqrt(steepness_square);  // `here` at the end of the ramp
   if (std::abs(here) >= most) return inside ? full : 0;
   const int levels = static_cast<int>(0.5 * full * std::abs(here) / most);
   return static_cast<uint8_t>(inside ? 128 + levels : 127 - levels);

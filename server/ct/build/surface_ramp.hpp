@@ -7,9 +7,9 @@
 namespace ream::ct {
 
 /// Draws the surface of `coverage` (x fastest, of the grid's dimensions) as contact and removal take it: a
-/// ramp across the surface, `ramp_voxels` wide (above 0); beyond it empty or full. A scan's own ramp is as
-/// wide as its blur and ends in whatever soft tissue and noise leave beside bone, which would be felt as
-/// bone.
+/// ramp across the surface, `ramp_voxels` wide (above 0; its inner half at least half a voxel, so that a
+/// voxel is full only where the scan says so); beyond it empty or full. A scan's own ramp is as wide as its
+/// blur and ends in whatever soft tissue and noise leave beside bone, which would be felt as bone.
 ///
 /// The surface is where coverage, interpolated between neighbouring voxels, is 127.5: each voxel keeps its
 /// side. Its distance, in voxels, is what coverage lacks to it over how steeply coverage changes here, by the
