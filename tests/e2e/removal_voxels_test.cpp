@@ -106,11 +106,11 @@ TEST(RemovalVoxels, TheComparisonNoticesASingleWrongVoxel) {
   below = static_cast<uint8_t>(below - 1);
   EXPECT_EQ(compare_with_sweep(run.bone, before, body, reports, table_error_mm).not_kept, 1u);
   below = static_cast<uint8_t>(below + 1);
-  const size_t gone = run.bone.grid.index(run.bone.grid.voxel_at(apex - 0.5 * axis + Vec3(0, 0, 4)));
-  if (before[gone] != 0 && run.bone.coverage[gone] == 0) {
-    run.bone.coverage[gone] = 1;
-    EXPECT_EQ(compare_with_sweep(run.bone, before, body, reports, table_error_mm).wrong(), 1u);
-  }
+  const size_t gone = run.bone.grid.index(run.bone.grid.voxel_at(apex - 0.4 * axis));
+  ASSERT_NE(before[gone], 0);
+  ASSERT_EQ(run.bone.coverage[gone], 0);
+  run.bone.coverage[gone] = 1;
+  EXPECT_EQ(compare_with_sweep(run.bone, before, body, reports, table_error_mm).wrong(), 1u);
 }
 
 }  // namespace
