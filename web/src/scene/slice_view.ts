@@ -221,17 +221,19 @@ export class SliceView {
   }
 
   private hover(at: PicturePoint | null): void {
-    const overlay = this.overlay();
-    const mark = at === null || overlay === null ? null : markAt(at, overlay);
-    this.canvas.classList.toggle('draggable', mark !== null && this.marks.draggable(mark));
+    this.canvas.classList.toggle('draggable', at !== null && this.draggableAt(at) !== null);
   }
 
   private takeHold(at: PicturePoint): boolean {
+    this.held = this.draggableAt(at);
+    return this.held !== null;
+  }
+
+  /** The nearest mark that can be dragged, also where another one lies on it. */
+  private draggableAt(at: PicturePoint): PointMark | null {
     const overlay = this.overlay();
-    const mark = overlay === null ? null : markAt(at, overlay);
-    if (mark === null || !this.marks.draggable(mark)) return false;
-    this.held = mark;
-    return true;
+    if (overlay === null) return null;
+    return markAt(at, { ...overlay, points: overlay.points.filter((mark) => this.marks.draggable(mark)) });
   }
 
   /** Places what is to be placed, even close to a mark; where nothing is, a click on a mark chooses it. */

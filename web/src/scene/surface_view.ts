@@ -305,9 +305,11 @@ export class SurfaceView {
     const box = this.canvas.getBoundingClientRect();
     const at = { x: event.clientX - box.left, y: event.clientY - box.top };
     const marks = this.marks.points.value;
-    const index = this.labels.value.findIndex(({ x, y }) => Math.hypot(x - at.x, y - at.y) < 11);
-    const mark = marks[index];
-    return mark !== undefined && this.marks.draggable(mark) ? mark : null;
+    const isUnder = (i: number) => {
+      const label = this.labels.value[i];
+      return label !== undefined && Math.hypot(label.x - at.x, label.y - at.y) < 11;
+    };
+    return marks.find((mark, i) => isUnder(i) && this.marks.draggable(mark)) ?? null;
   }
 
   /** Once the cross-hair rests, or now and then while it moves: slices go before the surface. */
