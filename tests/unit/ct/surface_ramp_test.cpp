@@ -112,6 +112,7 @@ TEST(SurfaceRamp, OfAStepStaysAStepAndAPlaneKeepsItsPlace) {
   grid.dims = {8, 8, 8};
   const auto plane = [&](int partial) {
     std::vector<uint8_t> coverage;
+    coverage.reserve(512);
     for (int i = 0; i < 512; ++i)
       coverage.push_back(i / 64 < 4 ? 255 : (i / 64 == 4 ? static_cast<uint8_t>(partial) : 0));
     return coverage;
