@@ -99,6 +99,16 @@ TEST_F(SteeredHand, PushingReamsAtTheLawsRateAndReleasingStopsIt) {
   EXPECT_EQ(out.hand_force_n.norm(), 0.0);
 }
 
+TEST_F(SteeredHand, PushesAsHardAsItIsToldUpToItsBound) {
+  for (const auto& [told_n, pushed_n] : {std::pair(110.0, 110.0), std::pair(500.0, 120.0)}) {
+    command.push_n = told_n;
+    record::TickReport report;
+    for (int i = 0; i < 3000 && !report.engaged; ++i) report = tick();
+    ASSERT_TRUE(report.engaged);
+    EXPECT_NEAR(run(2.0).thrust_n, pushed_n, 0.03 * pushed_n);
+  }
+}
+
 TEST_F(SteeredHand, SixtyWishesASecondMakeASmoothMotion) {
   Vec3 before = Vec3::Zero(), speed_before = Vec3::Zero();
   double turn_most = 0.0;

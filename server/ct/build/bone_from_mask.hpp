@@ -26,13 +26,14 @@ struct BoneSettings {
 };
 
 /// Bone of a mask over a CT: voids filled; at the surface, how full a voxel is follows from its HU between
-/// soft tissue and the densest bone beside it (so the surface is sub-voxel and thin sheets survive; a
-/// scan blurred by more than 0.75 voxels SD has it up to half a voxel outside, as the bone beside is not yet
-/// whole), and density is that of the bone within, not of the mix; both upsampled (voxel/upsample.hpp) and
-/// padded to whole bricks; then the surface is redrawn as a ramp one voxel wide (surface_ramp.hpp). Only the
-/// part of the mask within the region of interest, with an empty CT voxel on every side so that the surface
-/// is closed where the region cuts the bone. Throws Error invalid_input for an empty mask, no bone within the
-/// region, a bad factor, or more than 1.5e9 voxels.
+/// soft tissue and the densest bone beside it (so the surface is sub-voxel and thin sheets survive;
+/// blur of 0.75, 1, 1.5 and 2 CT voxels SD puts it 0.2, 0.5, 1 and 2 of them outside, as the bone beside is
+/// not yet whole), and density is that of the bone within, not of the mix; both upsampled
+/// (voxel/upsample.hpp) and padded to whole bricks; then the surface is redrawn as a ramp about a voxel
+/// wide, 1.5 where it was upsampled (surface_ramp.hpp). Only the part of the mask within the region of
+/// interest, with an empty CT voxel on every side so that the surface is closed where the region cuts the
+/// bone. Throws Error invalid_input for an empty mask, no bone within the region, a bad factor, or more
+/// than 1.5e9 voxels.
 voxel::BoneModel bone_from_mask(const HuVolume& volume, const Mask& mask, const BoneSettings& settings,
                                 const Progress& progress);
 /// The same over the grid of the whole volume, open where the volume cuts the bone.

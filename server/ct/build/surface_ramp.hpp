@@ -13,9 +13,10 @@ namespace ream::ct {
 ///
 /// The surface is where coverage, interpolated between neighbouring voxels, is 127.5: each voxel keeps its
 /// side. Its distance, in voxels, is what coverage lacks to it over how steeply coverage changes here, by the
-/// steeper neighbour along each axis: exact for a plane under a linear ramp, be that narrower or wider than a
-/// voxel. Voxels that are longer along one axis have a longer ramp along it, as a surface could not lie
-/// between their centres otherwise. A border of the grid is no surface. Deterministic; on two threads.
+/// steeper neighbour along each axis: exact for a plane across an axis under a linear ramp of a voxel or
+/// more, within a tenth of a voxel for other planes, and within a quarter for steeper ramps. Voxels that are
+/// longer along one axis have a longer ramp along it, as a surface could not lie between their centres
+/// otherwise. A border of the grid is no surface. Deterministic; on two threads.
 void redraw_surface_ramp(const voxel::VoxelGrid& grid, double ramp_voxels, std::vector<uint8_t>& coverage);
 
 }  // namespace ream::ct

@@ -13,7 +13,7 @@ namespace ream::device {
 namespace {
 
 /// How a hand follows a wish. Engineering choice.
-/// Its arm is slower than a script's, so that a push of 80 N goes through the air at 40 mm/s.
+/// Its arm is slower than a script's, so that a push of 120 N goes through the air at 60 mm/s.
 constexpr double arm_damping_n_s_mm = 2.0;
 /// Before and behind the planned entry; the hand goes no farther along its line.
 constexpr double reach_mm = 60.0;

@@ -9,7 +9,7 @@ namespace ream::device {
 
 /// How far a person with a mouse can go; what they command beyond is cut to this.
 struct SteeringLimits {
-  static constexpr double max_push_n = 80.0, min_push_n = -30.0;  ///< simulated
+  static constexpr double max_push_n = 120.0, min_push_n = -30.0;  ///< simulated
   static constexpr double max_sideways_mm = 60.0;                 ///< from the planned entry
   static constexpr double max_lean_rad = 0.5235987755982988;      ///< 30 degrees
 };

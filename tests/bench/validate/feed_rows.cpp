@@ -105,8 +105,8 @@ void print_tables(const PublishedBone& bone, const Feeds& feeds, const Regressio
 void print_left_out(const PublishedBone& bone, const Feeds& feeds, std::ostream* out) {
   TextTable table;
   table.title = "Leave one out, " + std::string(bone.name) +
-                ": feed at 52 N by a regression on the other five, mm/s, and where 95 % of new\nspecimens "
-                "would lie by it";
+                ": feed at 52 N by a regression on the other five, mm/s, with its 95 %\nprediction "
+                "interval";
   table.corner = "specimen";
   table.columns = {"D g/cc", "thesis", "foretold", "from", "to", "ours"};
   for (size_t s = 0; s < specimens; ++s) {

@@ -29,7 +29,8 @@ struct Interval {
   double low = 0.0, middle = 0.0, high = 0.0;
 };
 
-/// Where 95 % of new y at `at` lie by the regression of y on x. Needs at least three points.
+/// 95 % prediction interval of one new y at `at` by the regression of y on x: of many such experiments, 95 %
+/// hold the next y. Needs at least three points.
 Interval prediction_95(std::span<const double> x, std::span<const double> y, double at);
 
 }  // namespace ream::bench

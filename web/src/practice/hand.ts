@@ -69,7 +69,8 @@ export class Hand {
 
   withdraw(source: string, share: number): void {
     setShare(this.withdrawals, source, share);
-    this.pushN.value = Math.min(this.pushN.value, Math.max(this.wantedN(), 0));
+    const wantedN = this.wantedN();
+    if (wantedN < 0 || !this.free) this.pushN.value = Math.min(this.pushN.value, Math.max(wantedN, 0));
   }
 
   /** `onPurpose`: to stay there, also when the pointer leaves the picture. */

@@ -93,10 +93,11 @@ export class Practice {
    */
   steer(sessionId: string): void {
     this.window.remembered.setItem(rememberedKey, sessionId);
-    const session = this.store.details.value;
+    const session = this.store.watched.value;
     this.practice.hand.reset(session?.id === sessionId && session.theatre);
     batch(() => {
       this.practice.sessionId.value = sessionId;
+      this.practice.lastSessionId.value = sessionId;
       this.practice.feedback.value = null;
     });
     this.link.connect(this.deviceUrl(sessionId));

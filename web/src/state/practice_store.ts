@@ -11,6 +11,8 @@ export class PracticeStore {
   readonly hand = new Hand();
   /** The session that this page steers. */
   readonly sessionId = signal<string | null>(null);
+  /** The one that it steered last. */
+  readonly lastSessionId = signal<string | null>(null);
   readonly link = signal<DeviceLinkState>({ kind: 'connecting' });
   /** What the server last answered; null while nothing is known. */
   readonly feedback = signal<Feedback | null>(null);

@@ -105,8 +105,8 @@ export class Watcher {
   /** Makes and starts a session of a study, and watches it; null when that failed. `participant` null: the user. */
   async train(studyId: string, participant: string | null, caseId: string): Promise<Session | null> {
     let made: Session | null = null;
-    await this.begin(async () => (made = await this.api.createInStudy(studyId, participant, caseId)));
-    return made;
+    const id = await this.begin(async () => (made = await this.api.createInStudy(studyId, participant, caseId)));
+    return id === null ? null : made;
   }
 
   private async begin(make: () => Promise<Session>): Promise<string | null> {
@@ -148,6 +148,7 @@ export class Watcher {
       batch(() => {
         this.store.sessionId.value = session.id;
         this.store.sessionState.value = session.state;
+        this.store.details.value = session;
         if (this.store.chosenId.value !== null) this.store.chosenId.value = session.id;
       });
       this.turn();

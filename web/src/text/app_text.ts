@@ -52,7 +52,7 @@ export const appText = {
   whoLabel: 'You are',
 
   practise: 'Practise',
-  nextAttempt: 'Next attempt in this study',
+  nextAttempt: 'Next session in this study',
   practiseOutside: 'Practise outside the study',
   practiseOutsideHint: 'That session does not count for the study.',
   inStudy: 'in a study',

@@ -5,7 +5,7 @@ export const limits: readonly string[] = [
   'No study has compared it with surgeons yet: nobody knows whether its points tell experts from novices.',
   'How fast the reamer sinks comes from six cadaver scapulae, reamed by a robot at 52 N. In a new cortical bone the true speed may be half as fast again, or half as fast.',
   'Bone of 0.72 to 1.30 g/cc, other forces and other reamers are calculated from these data, not measured.',
-  'A bone’s surface is as exact as its CT. In a soft or blurred scan it lies up to half a voxel outside.',
+  'A bone’s surface is as exact as its CT. Blur of one voxel (standard deviation) puts it half a voxel outside, blur of two voxels two.',
   'Without a calibration phantom in the scan, densities are estimates, and so are all forces.',
   'Torque and sideways forces come from published cutting experiments in other bones.',
   'Vibration and sound have the published strength and spectrum. No recorded bone is in them.',

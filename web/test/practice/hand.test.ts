@@ -79,6 +79,10 @@ describe('Hand', () => {
     wait(2);
     expect(hand.pushN.value).toBeCloseTo(50, -1);
     hand.push('mouse', 0);
+    hand.withdraw('mouse', 0);
+    // As a page without a gamepad says at every step.
+    hand.push('gamepad', 0);
+    hand.withdraw('gamepad', 0);
     wait(0.5);
     expect(hand.pushN.value).toBeCloseTo(20, -1);
     hand.push('mouse', 1);

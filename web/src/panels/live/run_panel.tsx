@@ -31,7 +31,7 @@ export function RunPanel({ store, watcher, practice, practiceStore, theatreWante
     <section class="run" aria-label={appText.runDemo}>
       {may.ream && (
         <div class="run-buttons">
-          {!active && <StartButtons {...{ store, watcher, practice, idle, theatreWanted }} />}
+          {!active && <StartButtons {...{ store, watcher, practice, practiceStore, idle, theatreWanted }} />}
           <button
             type="button"
             class={active ? 'run-button' : 'run-button run-second'}

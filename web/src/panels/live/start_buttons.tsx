@@ -1,6 +1,7 @@
 import type { Signal } from '@preact/signals';
 
 import type { Practice } from '../../state/practice';
+import type { PracticeStore } from '../../state/practice_store';
 import type { Store } from '../../state/store';
 import type { Watcher } from '../../state/watcher';
 import { appText } from '../../text/app_text';
@@ -10,6 +11,7 @@ interface Parts {
   store: Store;
   watcher: Watcher;
   practice: Practice;
+  practiceStore: PracticeStore;
   /** Something can be started now. */
   idle: boolean;
   theatreWanted: Signal<boolean>;
@@ -19,12 +21,13 @@ interface Parts {
  * What begins a session of one's own. After a session of a study the next attempt in it comes first, so that nobody
  * leaves a study without knowing.
  */
-export function StartButtons({ store, watcher, practice, idle, theatreWanted }: Parts) {
+export function StartButtons({ store, watcher, practice, practiceStore, idle, theatreWanted }: Parts) {
   const may = useIdentity().may.value;
-  const details = store.details.value;
-  const last = details !== null && details.id === store.sessionId.value ? details : null;
+  const last = store.watched.value;
   const { study = null, participant = null } = last ?? {};
-  const inStudy = study !== null && participant !== null && may.takePart;
+  // Staff who only watched somebody train do not go on in that person's place.
+  const own = !may.teach || practiceStore.lastSessionId.value === last?.id;
+  const inStudy = study !== null && participant !== null && may.takePart && own && last?.state !== 'created';
   const attemptAgain = async () => {
     if (last === null || study === null) return;
     const session = await watcher.train(study, may.teach ? participant : null, last.case);
