@@ -10,8 +10,8 @@ namespace ream::device {
 /// How far a person with a mouse can go; what they command beyond is cut to this.
 struct SteeringLimits {
   static constexpr double max_push_n = 120.0, min_push_n = -30.0;  ///< simulated
-  static constexpr double max_sideways_mm = 60.0;                 ///< from the planned entry
-  static constexpr double max_lean_rad = 0.5235987755982988;      ///< 30 degrees
+  static constexpr double max_sideways_mm = 60.0;                  ///< from the planned entry
+  static constexpr double max_lean_rad = 0.5235987755982988;       ///< 30 degrees
 };
 
 /// A simulated hand that does what a person with a mouse, a touch screen, keys or a gamepad commands: 60
