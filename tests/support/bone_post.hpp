@@ -36,7 +36,7 @@ inline voxel::BoneModel round_post(double area_mm2, double aside_mm, double dens
 }
 
 /// The face that the edge model's reference stands for, 37.5 x 24.4 mm, in the shape of the thesis' reamer:
-/// it is seated from the first touch. Its lowest point is at the plan's entry.
+/// it is seated from the first touch.
 inline voxel::BoneModel seated_face(double density_g_cc) {
   const shell::ToolProfile profile = shell::make_tool("thesis-appendix-a").profile;
   voxel::BoneModel bone = post(

@@ -100,7 +100,7 @@ void print_tables(const PublishedBone& bone, const Feeds& feeds, const Regressio
   lines.print(out, 4);
 }
 
-/// How well the thesis' own regression foretells a specimen that it has not seen, and ours beside it, which
+/// How well the thesis' own regression predicts a specimen that it has not seen, and ours beside it, which
 /// has seen all six.
 void print_left_out(const PublishedBone& bone, const Feeds& feeds, std::ostream* out) {
   TextTable table;
@@ -108,7 +108,7 @@ void print_left_out(const PublishedBone& bone, const Feeds& feeds, std::ostream*
                 ": feed at 52 N by a regression on the other five, mm/s, with its 95 %\nprediction "
                 "interval";
   table.corner = "specimen";
-  table.columns = {"D g/cc", "thesis", "foretold", "from", "to", "ours"};
+  table.columns = {"D g/cc", "thesis", "predicted", "from", "to", "ours"};
   for (size_t s = 0; s < specimens; ++s) {
     std::vector<double> density, feed;
     for (size_t other = 0; other < specimens; ++other) {
@@ -117,10 +117,10 @@ void print_left_out(const PublishedBone& bone, const Feeds& feeds, std::ostream*
       feed.push_back(bone.specimens[other].feed_mm_s);
     }
     const Specimen& left_out = bone.specimens[s];
-    const Interval foretold = prediction_95(density, feed, left_out.density_g_cc);
+    const Interval predicted = prediction_95(density, feed, left_out.density_g_cc);
     table.lines.push_back({std::to_string(s + 1),
-                           {left_out.density_g_cc, left_out.feed_mm_s, foretold.middle, foretold.low,
-                            foretold.high, feeds.of_law[s][reference_thrust]}});
+                           {left_out.density_g_cc, left_out.feed_mm_s, predicted.middle, predicted.low,
+                            predicted.high, feeds.of_law[s][reference_thrust]}});
   }
   table.print(out, 4);
 }
