@@ -4,6 +4,7 @@
 #include "core/units.hpp"
 #include "shell/swept_profile.hpp"
 #include "shell/tool.hpp"
+#include "sim/model.hpp"
 #include "sim/settings.hpp"
 #include "support/test_bone.hpp"
 
