@@ -73,7 +73,8 @@ json to_json(const study::Participant& participant) {
           {"experience", or_null(participant.experience)},
           {"procedures_done", known ? json(participant.procedures_done) : json(nullptr)},
           {"answers", participant.answers.value_or(json(nullptr))},
-          {"has_account", participant.has_account}};
+          {"has_account", participant.has_account},
+          {"arm", or_null(participant.arm)}};
 }
 
 json user_json(const access::User& user) {

@@ -10,7 +10,7 @@ const std::vector<Route>& routes() {
           audit_routes,     upload_routes,    job_routes,           case_routes,       case_volume_routes,
           case_plan_routes, session_routes,   session_trash_routes, annotation_routes, replay_routes,
           download_routes,  deviation_routes, score_routes,         rescoring_routes,  learning_routes,
-          rubric_routes,    benchmark_routes, study_routes}) {
+          rubric_routes,    benchmark_routes, study_routes,         rating_routes}) {
       auto more = part();
       rows.insert(rows.end(), more.begin(), more.end());
     }

@@ -32,5 +32,6 @@ std::vector<Route> learning_routes();
 std::vector<Route> rubric_routes();
 std::vector<Route> benchmark_routes();
 std::vector<Route> study_routes();
+std::vector<Route> rating_routes();
 
 }  // namespace ream::api

@@ -66,7 +66,9 @@ class Server {
   access::AccessControl access_control_;
   StreamWatch stream_watch_;
   session::SessionService sessions_;
+  const std::shared_ptr<const study::StudyDependencies> study_dependencies_;
   study::StudyService studies_;
+  study::RatingService ratings_;
   session::ReplayService replays_;
   const ServedSessions served_;
   Retention retention_;

@@ -22,9 +22,8 @@ void Services::audit_reading(const net::Request& request, const std::string& act
 }
 
 session::SessionRecord Services::seen(const net::Caller& caller, session::SessionRecord record) const {
-  if (!record.request.study.empty())
-    record.request = studies.blinding(caller).seen(std::move(record.request));
-  return record;
+  if (record.request.study.empty()) return record;
+  return studies.blinding(caller).seen(std::move(record));
 }
 
 }  // namespace ream::api

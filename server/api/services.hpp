@@ -12,6 +12,7 @@
 #include "jobs/low_priority_executor.hpp"
 #include "session/service/replay_service.hpp"
 #include "session/service/session_service.hpp"
+#include "study/rating_service.hpp"
 #include "study/study_service.hpp"
 #include "workup/case_service.hpp"
 
@@ -25,6 +26,7 @@ struct Services {
   session::ReplayService& replays;
   session::SessionEngine& engine;
   study::StudyService& studies;
+  study::RatingService& ratings;
   jobs::JobService& jobs;
   jobs::LowPriorityExecutor& executor;
   workup::CaseService& cases;

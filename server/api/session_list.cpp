@@ -104,10 +104,8 @@ net::Response list_sessions(const Services& services, const net::Request& reques
   session::SessionPage page = sessions_for(request.caller, services.sessions, session_query(request));
   const study::Blinding blinding = services.studies.blinding(request.caller);
   json records = json::array();
-  for (session::SessionRecord& record : page.sessions) {
-    record.request = blinding.seen(std::move(record.request));
-    records.push_back(to_json(record));
-  }
+  for (session::SessionRecord& record : page.sessions)
+    records.push_back(to_json(blinding.seen(std::move(record))));
   json whole = {{"sessions", std::move(records)},
                 {"next", or_null(page.next)},
                 {"total", page.total},

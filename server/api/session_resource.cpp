@@ -3,6 +3,7 @@
 #include "api/routes.hpp"
 #include "api/services.hpp"
 #include "api/session_list.hpp"
+#include "core/error.hpp"
 #include "net/problem.hpp"
 
 namespace ream::api {
@@ -13,7 +14,7 @@ const std::string sessions_path = "/api/v1/sessions";
 
 session::SessionRequest session_request_from(const json& body) {
   session::SessionRequest wanted;
-  wanted.case_id = body.at("case");
+  wanted.case_id = text_in(body, "case");
   wanted.device = text_in(body, "device");
   wanted.script = text_in(body, "script");
   wanted.device_profile = text_in(body, "device_profile");
@@ -58,6 +59,9 @@ void take_study(const Services& services, const net::Caller& caller, session::Se
   if (wanted.study.empty()) {
     if (!wanted.participant.empty())
       throw net::RequestError(422, "'participant' needs 'study'", {{"#/participant", "needs a study"}});
+    if (wanted.case_id.empty())
+      throw net::RequestError(422, "'case' is missing; only a study knows which case is next",
+                              {{"#/case", "is missing"}});
     return;
   }
   if (!wanted.device.empty() || !wanted.script.empty() || !wanted.device_profile.empty() ||
@@ -113,6 +117,10 @@ net::Response stop_session(const Services& services, const net::Request& request
 
 net::Response reset_session(const Services& services, const net::Request& request) {
   services.readiness.require_prepared();
+  const auto phase = study::phase_from(services.sessions.get(id_of(request)).request.phase);
+  if (phase && study::is_test(*phase))
+    throw Error(ErrorKind::conflict, "session '" + id_of(request) +
+                                         "' is a test of its study, which is done once; stop it instead");
   return created_session(services, request,
                          services.sessions.reset(id_of(request), is_trainee(request.caller)));
 }

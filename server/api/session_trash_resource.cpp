@@ -34,7 +34,7 @@ json deleted_json(const Services& services, const study::Blinding& blinding,
                   session::DeletedSession deleted) {
   json session;
   if (deleted.record) {
-    deleted.record->request = blinding.seen(std::move(deleted.record->request));
+    deleted.record = blinding.seen(std::move(*deleted.record));
     session = to_json(*deleted.record);
   }
   return {{"id", deleted.id},

@@ -15,10 +15,10 @@ class ServerDependencies final : public study::StudyDependencies {
                      access::AccessControl& access_control)
       : cases_folder_(std::move(cases_folder)), sessions_(sessions), access_control_(access_control) {}
 
-  std::optional<std::string> name_of_user(const std::string& user_id) const override {
+  std::optional<study::StudyUser> find_user(const std::string& user_id) const override {
     try {
       const access::User user = access_control_.users.get(user_id);
-      return user.display_name.empty() ? user.name : user.display_name;
+      return study::StudyUser{user.display_name.empty() ? user.name : user.display_name, to_text(user.role)};
     } catch (const Error& unknown) {
       if (unknown.kind() != ErrorKind::not_found) throw;
       return std::nullopt;
@@ -55,10 +55,10 @@ class ServerDependencies final : public study::StudyDependencies {
 
 }  // namespace
 
-std::unique_ptr<const study::StudyDependencies> study_dependencies(const std::filesystem::path& cases_folder,
+std::shared_ptr<const study::StudyDependencies> study_dependencies(const std::filesystem::path& cases_folder,
                                                                    session::SessionService& sessions,
                                                                    access::AccessControl& access_control) {
-  return std::make_unique<ServerDependencies>(cases_folder, sessions, access_control);
+  return std::make_shared<const ServerDependencies>(cases_folder, sessions, access_control);
 }
 
 }  // namespace ream::api

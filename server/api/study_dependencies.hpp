@@ -9,7 +9,7 @@
 namespace ream::api {
 
 /// What studies ask of this server; all that is given outlives them.
-std::unique_ptr<const study::StudyDependencies> study_dependencies(const std::filesystem::path& cases_folder,
+std::shared_ptr<const study::StudyDependencies> study_dependencies(const std::filesystem::path& cases_folder,
                                                                    session::SessionService& sessions,
                                                                    access::AccessControl& access_control);
 

@@ -6,6 +6,7 @@
 #include "api/services.hpp"
 #include "core/text.hpp"
 #include "net/problem.hpp"
+#include "study/study_sessions.hpp"
 
 namespace ream::api {
 using nlohmann::json;
@@ -19,8 +20,10 @@ const std::string& code_of(const net::Request& request) { return request.paramet
 struct StudyView {
   const study::Study& study;
   bool to_staff = false;
-  int64_t participants = 0;  ///< for staff only
-  std::string own_code;      ///< of the caller; empty: does not take part
+  int64_t participants = 0;                ///< for staff only
+  std::string own_code;                    ///< of the caller; empty: does not take part
+  std::optional<study::NextSession> next;  ///< of the caller
+  bool rates = false;                      ///< the caller rates its sessions
 };
 
 /// Without the questionnaire.
@@ -38,14 +41,28 @@ json summary_json(const StudyView& view) {
           {"script", or_null(study.settings.script)},
           {"device", or_null(study.settings.device)},
           {"device_profile", or_null(study.settings.device_profile)},
+          {"design", study.settings.design ? to_json(*study.settings.design) : json(nullptr)},
+          {"allocation_seed", study.open ? json(nullptr) : or_null(study.allocation_seed)},
+          {"rates", view.rates},
           {"join_code", view.to_staff ? json(study.join_code) : json(nullptr)},
           {"participants", view.to_staff ? json(view.participants) : json(nullptr)},
           {"participant", or_null(view.own_code)}};
 }
 
+json next_json(const study::NextSession& next) {
+  return {
+      {"phase", to_text(next.phase)},
+      {"number", next.number},
+      {"of", next.of},
+      {"not_before", next.not_before_day > 0 ? json(study::date_text(next.not_before_day)) : json(nullptr)}};
+}
+
 json study_json(const StudyView& view) {
   json all = summary_json(view);
-  all["questionnaire"] = view.study.questionnaire ? to_json(*view.study.questionnaire) : json(nullptr);
+  const auto form_json = [](const auto& form) { return form ? to_json(*form) : json(nullptr); };
+  all["questionnaire"] = form_json(view.study.questionnaire);
+  all["rating_form"] = form_json(view.study.settings.rating_form);
+  all["next_session"] = view.next ? next_json(*view.next) : json(nullptr);
   return all;
 }
 
@@ -55,11 +72,18 @@ json person_json(const store::PersonRow& person) {
 
 /// Errors: those of the questionnaire; RequestError 422 for a case that comes twice.
 study::StudyDraft study_draft_from(const json& body) {
-  study::StudyDraft draft{body.at("name"),
-                          text_in(body, "description"),
-                          {different_texts_in(body, "cases"), text_in(body, "script"),
-                           text_in(body, "device"), text_in(body, "device_profile")},
-                          std::nullopt};
+  study::StudyDraft draft{
+      body.at("name"),
+      text_in(body, "description"),
+      {different_texts_in(body, "cases"), text_in(body, "script"), text_in(body, "device"),
+       text_in(body, "device_profile"), std::nullopt, std::nullopt},
+      std::nullopt};
+  if (body.contains("design") && !body["design"].is_null())
+    draft.settings.design = study::design_from(body["design"]);
+  if (!body.contains("rating_form"))
+    draft.settings.rating_form = study::default_rating_form();
+  else if (!body["rating_form"].is_null())
+    draft.settings.rating_form = study::questionnaire_from(body["rating_form"]);
   if (!body.contains("questionnaire"))
     draft.questionnaire = study::face_validity_questionnaire();
   else if (!body["questionnaire"].is_null())
@@ -78,12 +102,18 @@ study::NewParticipant new_participant_from(const json& body) {
 }
 
 StudyView study_view(const Services& services, const net::Request& request, const study::Study& study) {
-  return {study, access::is_staff(request.caller.role), services.studies.count(study.id),
-          services.studies.code_of(request.caller, study.id)};
+  return {study,
+          access::is_staff(request.caller.role),
+          services.studies.count(study.id),
+          services.studies.code_of(request.caller, study.id),
+          std::nullopt,
+          services.ratings.rates(request.caller, study.id)};
 }
 
 net::Response study_reply(const Services& services, const net::Request& request, const study::Study& study) {
-  return net::json_response(200, study_json(study_view(services, request, study)));
+  StudyView view = study_view(services, request, study);
+  if (!view.own_code.empty()) view.next = services.studies.next(study, view.own_code);
+  return net::json_response(200, study_json(view));
 }
 
 net::Response list_studies(const Services& services, const net::Request& request) {
@@ -140,10 +170,12 @@ net::Response export_study(const Services& services, const net::Request& request
     return net::json_response(200, {{"study", id_of(request)},
                                     {"sessions", session::json_of(all.sessions)},
                                     {"answers", session::json_of(all.answers)},
-                                    {"groups", session::json_of(all.groups)}});
-  const session::ExportTable& chosen = table == "answers"  ? all.answers
-                                       : table == "groups" ? all.groups
-                                                           : all.sessions;
+                                    {"groups", session::json_of(all.groups)},
+                                    {"ratings", session::json_of(all.ratings)}});
+  const session::ExportTable& chosen = table == "answers"   ? all.answers
+                                       : table == "groups"  ? all.groups
+                                       : table == "ratings" ? all.ratings
+                                                            : all.sessions;
   net::Response response = net::bytes_response(200, "text/csv; charset=utf-8; header=present",
                                                net::share(session::csv_of(chosen)));
   response.headers.emplace_back("Content-Disposition",

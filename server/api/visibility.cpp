@@ -14,6 +14,12 @@ std::optional<session::SessionRequest> ServedSessions::session_of(const std::str
   }
 }
 
+bool ServedSessions::is_rated_by(const net::Caller& caller, const std::string& id) const {
+  if (replays_.has(id)) return false;
+  const auto session = session_of(id);
+  return session && ratings_.hides(caller, *session);
+}
+
 bool may_see(const net::Caller& caller, const session::SessionRequest& session) {
   switch (access::role_bit(caller.role)) {
     case access::operators:

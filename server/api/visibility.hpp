@@ -5,6 +5,7 @@
 #include "net/message.hpp"
 #include "session/service/replay_service.hpp"
 #include "session/service/session_service.hpp"
+#include "study/rating_service.hpp"
 
 namespace ream::api {
 
@@ -14,18 +15,24 @@ class SessionFinder {
   virtual ~SessionFinder() = default;
   /// What a session or replay with that id is; none when there is none.
   virtual std::optional<session::SessionRequest> session_of(const std::string& id) const = 0;
+  /// Whether the caller rates the session with that id, and is to see no more of it than its replay. A replay
+  /// has an id of its own and is not hidden.
+  virtual bool is_rated_by(const net::Caller& caller, const std::string& id) const = 0;
 };
 
 /// Those of a server, which outlive it.
 class ServedSessions final : public SessionFinder {
  public:
-  ServedSessions(const session::SessionService& sessions, const session::ReplayService& replays)
-      : sessions_(sessions), replays_(replays) {}
+  ServedSessions(const session::SessionService& sessions, const session::ReplayService& replays,
+                 const study::RatingService& ratings)
+      : sessions_(sessions), replays_(replays), ratings_(ratings) {}
   std::optional<session::SessionRequest> session_of(const std::string& id) const override;
+  bool is_rated_by(const net::Caller& caller, const std::string& id) const override;
 
  private:
   const session::SessionService& sessions_;
   const session::ReplayService& replays_;
+  const study::RatingService& ratings_;
 };
 
 /// Whether a caller may know of a session: operators and instructors of all, trainees of their own, viewers

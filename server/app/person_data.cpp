@@ -15,6 +15,7 @@
 #include "session/folder/recorded_annotations.hpp"
 #include "session/folder/session_folder.hpp"
 #include "session/folder/session_labels.hpp"
+#include "store/rating_table.hpp"
 #include "store/session_index.hpp"
 #include "store/study_table.hpp"
 
@@ -174,6 +175,7 @@ ForgetReport forget_person(store::Database& database, access::AccessControl& acc
   forget_aside(data, user, report);
   if (!report.left.empty()) return report;
   store::StudyTable(database).forget_person(user.id);
+  store::RatingTable(database).forget_user(user.id);
   access_control.users.remove(user.id);
   report.audit_rows = access_control.audit.forget(user.id, {user.name, user.display_name});
   return report;
@@ -191,11 +193,12 @@ json export_person(store::Database& database, const access::AccessControl& acces
   json studies = json::array();
   for (const auto& [study, code] : store::StudyTable(database).codes_of(user.id))
     studies.push_back({{"study", study}, {"participant", code}});
-  return {{"user", api::user_json(user)},
-          {"credentials", credentials_json(access_control, user)},
-          {"sessions", std::move(sessions)},
-          {"studies", std::move(studies)},
-          {"audit", audit_json(access_control.audit, user)}};
+  json rated = json::array();
+  for (const auto& [study, label] : store::RatingTable(database).labels_of(user.id))
+    rated.push_back({{"study", study}, {"rater", label}});
+  return {{"user", api::user_json(user)},      {"credentials", credentials_json(access_control, user)},
+          {"sessions", std::move(sessions)},   {"studies", std::move(studies)},
+          {"rated_studies", std::move(rated)}, {"audit", audit_json(access_control.audit, user)}};
 }
 
 }  // namespace ream::app

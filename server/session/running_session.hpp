@@ -26,6 +26,7 @@ struct SessionRequest {
   std::string trainee = {};            ///< the same for people
   std::string study = {};              ///< id of the study that it belongs to; empty: none
   std::string participant = {};        ///< code under which the study knows the trainee
+  std::string phase = {};              ///< what it is for in the study's design (study_design.hpp); may be empty
   std::string title = {};              ///< what people call it; may be empty
   std::string reset_of = {};           ///< session that this one is another attempt of; empty: none
   int attempt = 1;                     ///< 2 after the first reset, and so on

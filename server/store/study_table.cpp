@@ -36,6 +36,17 @@ std::optional<StudyRow> study_where(Sql& sql, const std::string& where, const st
   return sql.got_data() ? std::optional(row) : std::nullopt;
 }
 
+/// The first place of the sequence that nobody has ever had; two who take the same one at once are told apart
+/// by the primary key, and the later of them is refused.
+int64_t take_place(Sql& sql, const std::string& study, const std::string& stratum) {
+  long long place = 0;
+  sql << "SELECT COUNT(*) FROM study_allocations WHERE study = :study AND stratum = :stratum", use(study),
+      use(stratum), into(place);
+  sql << "INSERT INTO study_allocations (study, stratum, place) VALUES (:study, :stratum, :place)",
+      use(study), use(stratum), use(place);
+  return place;
+}
+
 std::string unknown_participant(const std::string& study, const std::string& code) {
   return "no participant '" + code + "' in study '" + study + "'";
 }
@@ -67,6 +78,8 @@ void StudyTable::replace(const StudyRow& study) {
 void StudyTable::remove(const std::string& id) {
   database_.run([&](Sql& sql) {
     require_known(study_exists(sql, id), "no study '" + id + "'");
+    for (const char* table : {"study_ratings", "study_raters", "study_allocations"})
+      sql << "DELETE FROM " + std::string(table) + " WHERE study = :id", use(id);
     sql << "DELETE FROM studies WHERE id = :id", use(id);
   });
 }
@@ -93,18 +106,20 @@ std::vector<StudyRow> StudyTable::list() const {
   });
 }
 
-void StudyTable::enrol(const ParticipantRow& participant, const std::optional<PersonRow>& person) {
-  database_.run([&](Sql& sql) {
+std::string StudyTable::enrol(ParticipantRow participant, const std::optional<PersonRow>& person,
+                              const std::string& stratum, const std::function<std::string(int64_t)>& arm_at) {
+  return database_.run([&](Sql& sql) {
     require_known(study_exists(sql, participant.study), "no study '" + participant.study + "'");
+    if (arm_at) participant.arm = arm_at(take_place(sql, participant.study, stratum));
     const long long procedures_done = participant.procedures_done;
-    sql << "INSERT INTO study_participants (code, study, experience, procedures_done, answers) VALUES "
-           "(:code, "
-           ":study, :experience, :procedures_done, :answers)",
+    sql << "INSERT INTO study_participants (code, study, experience, procedures_done, answers, arm) VALUES "
+           "(:code, :study, :experience, :procedures_done, :answers, :arm)",
         use(participant.code), use(participant.study), use(participant.experience), use(procedures_done),
-        use(participant.answers);
-    if (!person) return;
-    sql << "INSERT INTO study_persons (code, study, user_id, name) VALUES (:code, :study, :user_id, :name)",
-        use(participant.code), use(participant.study), use(person->user_id), use(person->name);
+        use(participant.answers), use(participant.arm);
+    if (person)
+      sql << "INSERT INTO study_persons (code, study, user_id, name) VALUES (:code, :study, :user_id, :name)",
+          use(person->code), use(participant.study), use(person->user_id), use(person->name);
+    return participant.arm;
   });
 }
 
@@ -128,10 +143,10 @@ std::optional<ParticipantRow> StudyTable::participant(const std::string& study,
   return database_.read([&](Sql& sql) -> std::optional<ParticipantRow> {
     ParticipantRow row;
     long long procedures_done = 0;
-    sql << "SELECT code, study, experience, procedures_done, answers FROM study_participants "
+    sql << "SELECT code, study, experience, procedures_done, answers, arm FROM study_participants "
            "WHERE study = :study AND code = :code",
         use(study), use(code), into(row.code), into(row.study), into(row.experience), into(procedures_done),
-        into(row.answers);
+        into(row.answers), into(row.arm);
     if (!sql.got_data()) return std::nullopt;
     row.procedures_done = procedures_done;
     return row;
@@ -143,15 +158,14 @@ std::vector<ParticipantRow> StudyTable::participants(const std::string& study) c
     std::vector<ParticipantRow> found;
     ParticipantRow row;
     long long procedures_done = 0;
-    for_each_row(
-        (sql.prepare << "SELECT code, study, experience, procedures_done, answers FROM study_participants "
-                        "WHERE study = :study ORDER BY code",
-         use(study), into(row.code), into(row.study), into(row.experience), into(procedures_done),
-         into(row.answers)),
-        [&] {
-          row.procedures_done = procedures_done;
-          found.push_back(row);
-        });
+    for_each_row((sql.prepare << "SELECT code, study, experience, procedures_done, answers, arm FROM "
+                                 "study_participants WHERE study = :study ORDER BY code",
+                  use(study), into(row.code), into(row.study), into(row.experience), into(procedures_done),
+                  into(row.answers), into(row.arm)),
+                 [&] {
+                   row.procedures_done = procedures_done;
+                   found.push_back(row);
+                 });
     return found;
   });
 }

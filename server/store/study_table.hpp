@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -27,7 +28,8 @@ struct ParticipantRow {
   std::string study;
   std::string experience;
   int64_t procedures_done = 0;
-  std::string answers;  ///< JSON; empty: none yet
+  std::string answers;   ///< JSON; empty: none yet
+  std::string arm = {};  ///< empty: the study has none
 };
 
 /// Who a participant is. Kept in a table of its own.
@@ -53,9 +55,12 @@ class StudyTable {
   /// Newest first.
   std::vector<StudyRow> list() const;
 
-  /// Adds a participant and, where `person` is given, who that is; both or none. Error conflict when the code
-  /// is taken or the user takes part already.
-  void enrol(const ParticipantRow& participant, const std::optional<PersonRow>& person);
+  /// Adds a participant and, where `person` is given, who that is; both or none. `arm_at` names the arm at a
+  /// place of the random sequence, counted from 0; the participant gets the first place of `stratum` that
+  /// nobody has ever had, and with it the arm, which is returned. Without `arm_at` no place is taken. Error
+  /// conflict when the code is taken or the user takes part already.
+  std::string enrol(ParticipantRow participant, const std::optional<PersonRow>& person,
+                    const std::string& stratum = {}, const std::function<std::string(int64_t)>& arm_at = {});
   void set_answers(const std::string& study, const std::string& code, const std::string& answers);
   /// With answers and person.
   void remove_participant(const std::string& study, const std::string& code);

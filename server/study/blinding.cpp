@@ -4,18 +4,33 @@
 
 namespace ream::study {
 
+bool Blinding::is_own(const session::SessionRequest& session) const {
+  return !caller_.user_id.empty() && caller_.user_id == session.trainee_id;
+}
+
 bool Blinding::hides(const session::SessionRequest& session) const {
-  if (session.study.empty() || access::role_bit(caller_.role) == access::operators) return false;
-  if (!caller_.user_id.empty() && caller_.user_id == session.trainee_id) return false;
+  if (hides_all(session)) return true;
+  if (session.study.empty() || access::is_operator(caller_.role) || is_own(session)) return false;
   return !unblinded_.contains(session.study);
 }
 
-session::SessionRequest Blinding::seen(session::SessionRequest session) const {
-  if (hides(session)) {
-    session.trainee_id.clear();
-    session.trainee = session.participant;
+bool Blinding::hides_all(const session::SessionRequest& session) const {
+  return !session.study.empty() && rated_.contains(session.study) && !is_own(session);
+}
+
+session::SessionRecord Blinding::seen(session::SessionRecord record) const {
+  session::SessionRequest& request = record.request;
+  if (hides_all(request)) {
+    request.participant.clear();
+    request.phase.clear();
+    request.title.clear();
+    record.mark.reset();
   }
-  return session;
+  if (hides(request)) {
+    request.trainee_id.clear();
+    request.trainee = request.participant;
+  }
+  return record;
 }
 
 }  // namespace ream::study

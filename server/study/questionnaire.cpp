@@ -56,6 +56,7 @@ void read_likert(JsonReader& reader, QuestionnaireItem& item) {
   item.points = static_cast<int>(reader.integer("points"));
   if (item.points != 5 && item.points != 7) reader.refuse("points", "must be 5 or 7");
   item.low = reader.has("low") ? words_of(reader, "low", max_words) : "Strongly disagree";
+  item.middle = words_or(reader, "middle", "", max_words);
   item.high = reader.has("high") ? words_of(reader, "high", max_words) : "Strongly agree";
   item.cannot_judge = reader.boolean_or("cannot_judge", false);
 }
@@ -129,6 +130,7 @@ json to_json(const QuestionnaireItem& item) {
       written.update({{"kind", "likert"},
                       {"points", item.points},
                       {"low", item.low},
+                      {"middle", item.middle},
                       {"high", item.high},
                       {"cannot_judge", item.cannot_judge}});
       break;
@@ -176,6 +178,12 @@ json to_json(const Questionnaire& questionnaire) {
 const Questionnaire& face_validity_questionnaire() {
   static const Questionnaire ours =
       questionnaire_from(parse_json(embedded::questionnaires::find("face_validity_1.json")));
+  return ours;
+}
+
+const Questionnaire& default_rating_form() {
+  static const Questionnaire ours =
+      questionnaire_from(parse_json(embedded::questionnaires::find("rating_1.json")));
   return ours;
 }
 

@@ -18,8 +18,9 @@ struct QuestionnaireItem {
   Kind kind = Kind::likert;
   std::string section, words;
   bool required = true;
-  int points = 5;               ///< likert: 1 (low) to points (high)
-  std::string low, high;        ///< likert: words of the two ends
+  int points = 5;  ///< likert: 1 (low) to points (high)
+  std::string low, middle,
+      high;  ///< likert: words of the two ends, and of the point between; middle may be empty
   bool cannot_judge = false;    ///< likert: null is an answer
   std::vector<Option> options;  ///< choice
   bool several = false;         ///< choice: more than one may be chosen
@@ -38,6 +39,8 @@ nlohmann::json to_json(const Questionnaire& questionnaire);
 
 /// The questionnaire that comes with the program: how real and how useful the simulator is.
 const Questionnaire& face_validity_questionnaire();
+/// The form for raters that comes with the program: global scales and a checklist.
+const Questionnaire& default_rating_form();
 
 /// Everything that keeps `answers` (an object by item id) from being a complete set of answers.
 std::vector<net::FieldError> faults_of_answers(const Questionnaire& questionnaire,

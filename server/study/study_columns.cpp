@@ -12,30 +12,51 @@ const session::ExportColumn experience_column = {
     "experience", "", "Level of experience at enrolment: novice, intermediate or expert"};
 const session::ExportColumn procedures_column = {
     "procedures_done", "", "Glenoid reamings done in patients before, as stated at enrolment"};
+const session::ExportColumn arm_column = {"arm", "",
+                                          "Arm of the study's design, by its id; empty without a design"};
+const session::ExportColumn attempt_column = {
+    "attempt", "", "1 for the participant's first session in the study, and so on"};
+const session::ExportColumn phase_column = {
+    "phase", "", "What the session is for in the study's design: pre, training, post or retention"};
 
 }  // namespace
 
-std::vector<session::ExportColumn> session_columns() {
-  return {study_column,
-          participant_column,
-          experience_column,
-          procedures_column,
-          {"attempt", "", "1 for the participant's first session in the study, and so on"},
-          {"study_day", "day", "Calendar day (UTC) since the participant's first session, which is on day 1"},
-          {"case", "", "Id of the case"},
-          {"script", "", "Name of the script"},
-          {"device", "", "Who held the tool: browser, network, script, ..."},
-          {"device_profile", "", "Whose limits the hand felt through"},
-          {"state", "", "How it ended: finished, stopped, interrupted or fault"},
-          {"given_up", "", "Whether the participant went back to intact bone in another session"}};
+std::vector<session::ExportColumn> session_columns(bool designed) {
+  std::vector<session::ExportColumn> columns = {
+      study_column,
+      participant_column,
+      experience_column,
+      procedures_column,
+      attempt_column,
+      {"study_day", "day", "Calendar day (UTC) since the participant's first session, which is on day 1"},
+      {"case", "", "Id of the case"},
+      {"script", "", "Name of the script"},
+      {"device", "", "Who held the tool: browser, network, script, ..."},
+      {"device_profile", "", "Whose limits the hand felt through"},
+      {"state", "", "How it ended: finished, stopped, interrupted or fault"},
+      {"given_up", "", "Whether the participant went back to intact bone in another session"}};
+  if (designed) columns.insert(columns.end(), {arm_column, phase_column});
+  return columns;
 }
 
-std::vector<session::ExportColumn> participant_columns() {
+std::vector<session::ExportColumn> participant_columns(bool designed) {
+  std::vector<session::ExportColumn> columns = {study_column,
+                                                participant_column,
+                                                experience_column,
+                                                procedures_column,
+                                                {"answered", "", "Whether the questionnaire was answered"}};
+  if (designed) columns.push_back(arm_column);
+  return columns;
+}
+
+std::vector<session::ExportColumn> rating_columns() {
   return {study_column,
           participant_column,
           experience_column,
-          procedures_column,
-          {"answered", "", "Whether the questionnaire was answered"}};
+          attempt_column,
+          arm_column,
+          phase_column,
+          {"rater", "", "Who rated, as R1, R2, ...; raters knew neither participant nor score"}};
 }
 
 std::vector<session::ExportColumn> group_columns() {

@@ -1,12 +1,12 @@
 #include "study/study_export.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <set>
 
 #include "study/study_columns.hpp"
+#include "study/study_sessions.hpp"
 
 namespace ream::study {
 using nlohmann::json;
@@ -32,35 +32,17 @@ struct Row {
   Values figures;
 };
 
-/// Days since 1970 of "2026-01-31T12:00:00Z".
-int64_t day_of(const std::string& utc) {
-  const auto number = [&](size_t at, size_t length) {
-    return utc.size() >= at + length ? std::atoi(utc.substr(at, length).c_str()) : 0;
-  };
-  const std::chrono::year_month_day date{std::chrono::year(number(0, 4)),
-                                         std::chrono::month(static_cast<unsigned>(number(5, 2))),
-                                         std::chrono::day(static_cast<unsigned>(number(8, 2)))};
-  return date.ok() ? std::chrono::sys_days(date).time_since_epoch().count() : 0;
-}
-
-const std::string& created(const session::SessionRecord& session) { return session.request.created_utc; }
-
-/// The participant went back to intact bone in a session of its own.
-bool given_up(const session::SessionRecord& session) { return !session.request.followed_by.empty(); }
-
 std::vector<Row> rows_of(const std::vector<Participant>& participants,
                          const std::vector<session::SessionRecord>& sessions,
                          const MetricsOfSession& metrics) {
   std::vector<Row> rows;
   for (const Participant& participant : participants) {
-    std::vector<const session::SessionRecord*> own;
-    for (const session::SessionRecord& session : sessions)
-      if (session.request.participant == participant.code) own.push_back(&session);
-    std::stable_sort(own.begin(), own.end(),
-                     [](const auto* a, const auto* b) { return created(*a) < created(*b); });
+    const auto own = sessions_of(participant.code, sessions);
     for (size_t i = 0; i < own.size(); ++i) {
       Row row{&participant, own[i], static_cast<int>(i + 1), 0, {}};
-      row.day = static_cast<int>(day_of(created(*own[i])) - day_of(created(*own.front()))) + 1;
+      row.day =
+          static_cast<int>(day_of(own[i]->request.created_utc) - day_of(own.front()->request.created_utc)) +
+          1;
       collect_figures(metrics(own[i]->request.id), "", row.figures);
       rows.push_back(std::move(row));
     }
@@ -75,8 +57,10 @@ std::set<std::string> names_of_figures(const std::vector<Row>& rows) {
   return names;
 }
 
+bool designed(const Study& study) { return study.settings.design.has_value(); }
+
 session::ExportTable sessions_table(const Study& study, const std::vector<Row>& rows) {
-  session::ExportTable table{"sessions", session_columns(), {}};
+  session::ExportTable table{"sessions", session_columns(designed(study)), {}};
   const std::set<std::string> figures = names_of_figures(rows);
   for (const std::string& name : figures) table.columns.push_back(metric_column(name));
   for (const Row& row : rows) {
@@ -94,6 +78,7 @@ session::ExportTable sessions_table(const Study& study, const std::vector<Row>& 
                                status.device.profile,
                                to_text(status.state),
                                given_up(*row.session)};
+    if (designed(study)) cells.insert(cells.end(), {row.participant->arm, request.phase});
     for (const std::string& name : figures) {
       const auto found = row.figures.find(name);
       cells.push_back(found == row.figures.end() ? json(nullptr) : found->second);
@@ -104,17 +89,41 @@ session::ExportTable sessions_table(const Study& study, const std::vector<Row>& 
 }
 
 session::ExportTable answers_table(const Study& study, const std::vector<Participant>& participants) {
-  session::ExportTable table{"answers", participant_columns(), {}};
+  session::ExportTable table{"answers", participant_columns(designed(study)), {}};
   const std::vector<QuestionnaireItem> none;
   const auto& items = study.questionnaire ? study.questionnaire->items : none;
   for (const QuestionnaireItem& item : items) table.columns.push_back(answer_column(item));
   for (const Participant& participant : participants) {
     std::vector<json> cells = {study.id, participant.code, participant.experience,
                                participant.procedures_done, participant.answers.has_value()};
+    if (designed(study)) cells.push_back(participant.arm);
     for (const QuestionnaireItem& item : items)
       cells.push_back(participant.answers && participant.answers->contains(item.id)
                           ? (*participant.answers)[item.id]
                           : json(json::value_t::discarded));
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+session::ExportTable ratings_table(const Study& study, const std::vector<Row>& rows,
+                                   const std::vector<SessionRating>& ratings) {
+  session::ExportTable table{"ratings", rating_columns(), {}};
+  if (!study.settings.rating_form) return table;
+  const auto& items = study.settings.rating_form->items;
+  for (const QuestionnaireItem& item : items) table.columns.push_back(answer_column(item));
+  std::map<std::string, const Row*> by_id;
+  for (const Row& row : rows) by_id[row.session->request.id] = &row;
+  for (const SessionRating& rating : ratings) {
+    const auto rated = by_id.find(rating.session);
+    if (rated == by_id.end()) continue;
+    const Row& row = *rated->second;
+    std::vector<json> cells = {study.id,    row.participant->code, row.participant->experience,
+                               row.number,  row.participant->arm,  row.session->request.phase,
+                               rating.rater};
+    for (const QuestionnaireItem& item : items)
+      cells.push_back(rating.answers.contains(item.id) ? rating.answers[item.id]
+                                                       : json(json::value_t::discarded));
     table.rows.push_back(std::move(cells));
   }
   return table;
@@ -136,9 +145,7 @@ double median_of(std::vector<double> values) {
 Groups groups_of_sessions(const std::vector<Row>& rows) {
   std::map<const Participant*, std::map<std::string, std::vector<double>>> own;
   for (const Row& row : rows) {
-    const SessionState state = row.session->status.state;
-    if (given_up(*row.session) || (state != SessionState::finished && state != SessionState::stopped))
-      continue;
+    if (!carried_out(*row.session)) continue;
     for (const auto& [name, value] : row.figures) own[row.participant][name].push_back(plain(value));
   }
   Groups groups;
@@ -180,12 +187,15 @@ double quantile(const std::vector<double>& sorted, double share) {
 }
 
 StudyExport export_of(const Study& study, const std::vector<Participant>& participants,
-                      const std::vector<session::SessionRecord>& sessions, const MetricsOfSession& metrics) {
+                      const std::vector<session::SessionRecord>& sessions, const MetricsOfSession& metrics,
+                      const std::vector<SessionRating>& ratings) {
   std::vector<Participant> by_code = participants;
   std::sort(by_code.begin(), by_code.end(), [](const auto& a, const auto& b) { return a.code < b.code; });
   const std::vector<Row> rows = rows_of(by_code, sessions, metrics);
-  StudyExport all{
-      sessions_table(study, rows), answers_table(study, by_code), {"groups", group_columns(), {}}};
+  StudyExport all{sessions_table(study, rows),
+                  answers_table(study, by_code),
+                  {"groups", group_columns(), {}},
+                  ratings_table(study, rows, ratings)};
   add_groups(all.groups, study, "metric", groups_of_sessions(rows));
   add_groups(all.groups, study, "answer", groups_of_answers(study, by_code));
   return all;

@@ -24,7 +24,8 @@ json codebook_of(const Study& study, const StudyExport& all) {
        "an empty cell is a value that is not known, or an answer that was not given."},
       {"sessions", codebook_of(all.sessions)},
       {"answers", codebook_of(all.answers)},
-      {"groups", codebook_of(all.groups)}};
+      {"groups", codebook_of(all.groups)},
+      {"ratings", codebook_of(all.ratings)}};
 }
 
 }  // namespace ream::study

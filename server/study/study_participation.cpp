@@ -3,8 +3,11 @@
 
 #include "access/role.hpp"
 #include "core/error.hpp"
+#include "core/json.hpp"
+#include "core/new_id.hpp"
 #include "study/study_rows.hpp"
 #include "study/study_service.hpp"
+#include "study/study_sessions.hpp"
 
 namespace ream::study {
 using nlohmann::json;
@@ -16,7 +19,13 @@ Error unknown_participant(const std::string& id, const std::string& code) {
 
 /// Without all that tells participants apart.
 Participant only_code(const Participant& participant) {
-  return {participant.code, "", 0, std::nullopt, participant.has_account};
+  return {participant.code, "", 0, std::nullopt, participant.has_account, ""};
+}
+
+/// Who never touched bone has not done what the session was for.
+bool has_cut(const json& metrics) {
+  const auto contact = metrics.find("contact_time_s");
+  return contact != metrics.end() && contact->is_number() && contact->get<double>() > 0.0;
 }
 
 }  // namespace
@@ -31,9 +40,16 @@ std::vector<Participant> StudyService::participants(const net::Caller& caller, c
   for (const store::ParticipantRow& row : table_.participants(id)) {
     Participant participant = participant_of(row);
     participant.has_account = with_account.contains(participant.code);
+    if (hidden) participant.arm.clear();
     list.push_back(hidden && participant.code != own ? only_code(participant) : participant);
   }
   return list;
+}
+
+std::set<std::string> StudyService::codes(const std::string& id) const {
+  std::set<std::string> found;
+  for (const store::ParticipantRow& row : table_.participants(id)) found.insert(row.code);
+  return found;
 }
 
 std::string StudyService::code_of(const net::Caller& caller, const std::string& id) const {
@@ -48,7 +64,9 @@ Participant StudyService::participant(const net::Caller& caller, const std::stri
   Participant found = participant_of(*row);
   const auto person = table_.person(id, code);
   found.has_account = person && !person->user_id.empty();
-  return own || access::is_operator(caller.role) || !known(id).open ? found : only_code(found);
+  if (access::is_operator(caller.role) || !known(id).open) return found;
+  found.arm.clear();
+  return own ? found : only_code(found);
 }
 
 std::vector<store::PersonRow> StudyService::persons(const net::Caller& caller, const std::string& id) const {
@@ -79,8 +97,12 @@ void StudyService::withdraw(const std::string& id, const std::string& code) {
 StudyExport StudyService::everything(const Study& study) const {
   std::vector<Participant> all;
   for (const store::ParticipantRow& row : table_.participants(study.id)) all.push_back(participant_of(row));
-  return export_of(study, all, dependencies_->sessions(study.id),
-                   [this](const std::string& id) { return dependencies_->metrics(id); });
+  std::vector<SessionRating> ratings;
+  for (const store::RatingRow& row : ratings_.ratings(study.id))
+    ratings.push_back({row.rater, row.session, parse_json(row.answers)});
+  return export_of(
+      study, all, dependencies_->sessions(study.id),
+      [this](const std::string& id) { return dependencies_->metrics(id); }, ratings);
 }
 
 StudyExport StudyService::export_all(const net::Caller& caller, const std::string& id) const {
@@ -111,28 +133,72 @@ void StudyService::admit(const net::Caller& caller, session::SessionRequest& wan
     wanted.participant = own;
   }
   participant(caller, id, wanted.participant);
+  wanted.script = study.settings.script;
+  wanted.device_profile = study.settings.device_profile;
+  if (study.settings.design) place_in_design(study, wanted);
   if (wanted.case_id.empty()) wanted.case_id = study.settings.cases.front();
   const auto& cases = study.settings.cases;
   if (std::find(cases.begin(), cases.end(), wanted.case_id) == cases.end())
     throw Error(ErrorKind::conflict, "case '" + wanted.case_id + "' is none of study '" + id + "'");
-  wanted.script = study.settings.script;
   wanted.device = study.settings.device;
-  wanted.device_profile = study.settings.device_profile;
   const auto person = table_.person(id, wanted.participant);
   wanted.trainee_id = person ? person->user_id : "";
   wanted.trainee = person ? person->name : "";
 }
 
+std::optional<NextSession> StudyService::next(const Study& study, const std::string& code) const {
+  const auto& design = study.settings.design;
+  const auto row = table_.participant(study.id, code);
+  const StudyArm* arm = design && row ? find_arm(*design, row->arm) : nullptr;
+  if (arm == nullptr) return std::nullopt;
+  std::vector<DoneSession> done;
+  const std::vector<session::SessionRecord> all = dependencies_->sessions(study.id);
+  for (const session::SessionRecord* session : sessions_of(code, all))
+    if (carried_out(*session) && has_cut(dependencies_->metrics(session->request.id)))
+      done.push_back({phase_from(session->request.phase), day_of(session->request.created_utc)});
+  return next_session(*design, *arm, done);
+}
+
+void StudyService::place_in_design(const Study& study, session::SessionRequest& wanted) const {
+  const StudyDesign& design = *study.settings.design;
+  const std::string& code = wanted.participant;
+  const auto next = this->next(study, code);
+  if (!next)
+    throw Error(ErrorKind::conflict,
+                "participant '" + code + "' has done every session of study '" + study.id + "'");
+  if (next->not_before_day > day_of(utc_now()))
+    throw Error(ErrorKind::conflict, "the " + std::string(to_text(next->phase)) + " test of participant '" +
+                                         code + "' may be done from " + date_text(next->not_before_day) +
+                                         " on");
+  wanted.phase = to_text(next->phase);
+  if (is_test(next->phase)) {
+    const std::string& test_case = design.test_case.empty() ? study.settings.cases.front() : design.test_case;
+    if (!wanted.case_id.empty() && wanted.case_id != test_case)
+      throw Error(ErrorKind::conflict,
+                  "participant '" + code + "' is tested next, on case '" + test_case + "'");
+    wanted.case_id = test_case;
+    wanted.theatre = design.test_theatre;
+    return;
+  }
+  const StudyArm& arm = *find_arm(design, table_.participant(study.id, code)->arm);
+  wanted.theatre = arm.theatre;
+  if (!arm.script.empty()) wanted.script = arm.script;
+  if (!arm.device_profile.empty()) wanted.device_profile = arm.device_profile;
+}
+
 Blinding StudyService::blinding(const net::Caller& caller) const {
-  std::set<std::string> unblinded;
-  if (access::is_operator(caller.role)) return {caller, std::move(unblinded)};
+  std::set<std::string> unblinded, rated;
   try {
-    for (const store::StudyRow& row : table_.list())
+    const std::map<std::string, std::string> labels = ratings_.labels_of(caller.user_id);
+    if (access::is_operator(caller.role) && labels.empty()) return {caller, {}, {}};
+    for (const store::StudyRow& row : table_.list()) {
       if (!row.unblinded_utc.empty()) unblinded.insert(row.id);
+      if (row.state == "open" && labels.contains(row.id)) rated.insert(row.id);
+    }
   } catch (const Error&) {
     unblinded.clear();  // what cannot be looked up now stays hidden
   }
-  return {caller, std::move(unblinded)};
+  return {caller, std::move(unblinded), std::move(rated)};
 }
 
 }  // namespace ream::study

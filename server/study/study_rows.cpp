@@ -6,10 +6,14 @@ namespace ream::study {
 using nlohmann::json;
 
 store::StudyRow row_of(const Study& study) {
-  const json settings = {{"cases", study.settings.cases},
-                         {"script", study.settings.script},
-                         {"device", study.settings.device},
-                         {"device_profile", study.settings.device_profile}};
+  const json settings = {
+      {"cases", study.settings.cases},
+      {"script", study.settings.script},
+      {"device", study.settings.device},
+      {"device_profile", study.settings.device_profile},
+      {"design", study.settings.design ? to_json(*study.settings.design) : json(nullptr)},
+      {"rating_form", study.settings.rating_form ? to_json(*study.settings.rating_form) : json(nullptr)},
+      {"allocation_seed", study.allocation_seed}};
   return {study.id,
           study.name,
           study.description,
@@ -34,6 +38,11 @@ Study study_of(const store::StudyRow& row) {
   study.settings.script = settings.value("script", "");
   study.settings.device = settings.value("device", "");
   study.settings.device_profile = settings.value("device_profile", "");
+  study.allocation_seed = settings.value("allocation_seed", "");
+  if (const json design = settings.value("design", json()); !design.is_null())
+    study.settings.design = design_from(design);
+  if (const json form = settings.value("rating_form", json()); !form.is_null())
+    study.settings.rating_form = questionnaire_from(form);
   if (!row.questionnaire.empty()) study.questionnaire = questionnaire_from(parse_json(row.questionnaire));
   study.created_utc = row.created_utc;
   study.closed_utc = row.closed_utc;
@@ -42,12 +51,16 @@ Study study_of(const store::StudyRow& row) {
 }
 
 store::ParticipantRow row_of(const std::string& study_id, const Participant& participant) {
-  return {participant.code, study_id, participant.experience, participant.procedures_done,
-          participant.answers ? participant.answers->dump() : std::string()};
+  return {participant.code,
+          study_id,
+          participant.experience,
+          participant.procedures_done,
+          participant.answers ? participant.answers->dump() : std::string(),
+          participant.arm};
 }
 
 Participant participant_of(const store::ParticipantRow& row) {
-  Participant participant{row.code, row.experience, row.procedures_done, std::nullopt, false};
+  Participant participant{row.code, row.experience, row.procedures_done, std::nullopt, false, row.arm};
   if (!row.answers.empty()) participant.answers = parse_json(row.answers);
   return participant;
 }

@@ -21,8 +21,8 @@ Error unknown_study(const std::string& id) {
 
 }  // namespace
 
-StudyService::StudyService(store::Database& database, std::unique_ptr<const StudyDependencies> dependencies)
-    : table_(database), dependencies_(std::move(dependencies)) {}
+StudyService::StudyService(store::Database& database, std::shared_ptr<const StudyDependencies> dependencies)
+    : table_(database), ratings_(database), dependencies_(std::move(dependencies)) {}
 
 Study StudyService::known(const std::string& id) const {
   const auto row = table_.find(id);
@@ -41,6 +41,11 @@ void StudyService::require_settings(const StudySettings& settings) const {
   for (const std::string& case_id : settings.cases)
     if (!dependencies_->has_case(case_id))
       throw Error(ErrorKind::not_found, "no case '" + case_id + "'; GET /api/v1/cases lists them");
+  if (!settings.design || settings.design->test_case.empty()) return;
+  if (std::find(settings.cases.begin(), settings.cases.end(), settings.design->test_case) ==
+      settings.cases.end())
+    throw Error(ErrorKind::invalid_input,
+                "design.test_case '" + settings.design->test_case + "' is none of the study's cases");
 }
 
 Study StudyService::create(const StudyDraft& draft) {
@@ -52,6 +57,7 @@ Study StudyService::create(const StudyDraft& draft) {
   study.questionnaire = draft.questionnaire;
   study.id = random_id();
   study.join_code = random_id();
+  study.allocation_seed = random_id();
   study.created_utc = utc_now();
   table_.add(row_of(study));
   return study;
@@ -133,14 +139,19 @@ void StudyService::remove(const std::string& id) {
 
 Participant StudyService::add_participant(const Study& study, const NewParticipant& wanted,
                                           const std::optional<store::PersonRow>& person) {
-  Participant participant{"", wanted.experience, wanted.procedures_done, std::nullopt,
-                          person && !person->user_id.empty()};
+  Participant participant{
+      "", wanted.experience, wanted.procedures_done, std::nullopt, person && !person->user_id.empty(), ""};
+  std::function<std::string(int64_t)> arm_of_place;
+  if (const auto& design = study.settings.design)
+    arm_of_place = [&](int64_t place) {
+      return arm_at(*design, study.allocation_seed, wanted.experience, place).id;
+    };
   for (int draw = 1;; ++draw) {
     participant.code = random_participant_code();
     std::optional<store::PersonRow> linked = person;
     if (linked) linked->code = participant.code;
     try {
-      table_.enrol(row_of(study.id, participant), linked);
+      participant.arm = table_.enrol(row_of(study.id, participant), linked, wanted.experience, arm_of_place);
       return participant;
     } catch (const Error& failure) {
       if (failure.kind() != ErrorKind::conflict || draw == max_draws) throw;
@@ -160,9 +171,9 @@ Participant StudyService::enrol(const net::Caller& caller, const std::string& id
                             "only operators may say who a participant is; give the person the join code");
   store::PersonRow person{"", wanted.user_id, wanted.name};
   if (!wanted.user_id.empty()) {
-    const auto name = dependencies_->name_of_user(wanted.user_id);
-    if (!name) throw Error(ErrorKind::not_found, "no user '" + wanted.user_id + "'");
-    person.name = *name;
+    const auto user = dependencies_->find_user(wanted.user_id);
+    if (!user) throw Error(ErrorKind::not_found, "no user '" + wanted.user_id + "'");
+    person.name = user->name;
   }
   return add_participant(study, wanted, person);
 }

@@ -2,10 +2,12 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "net/message.hpp"
+#include "store/rating_table.hpp"
 #include "store/study_table.hpp"
 #include "study/blinding.hpp"
 #include "study/study_export.hpp"
@@ -28,12 +30,17 @@ struct NewParticipant {
   std::string join_code;  ///< of who enrols themself
 };
 
+/// Somebody with an account.
+struct StudyUser {
+  std::string name, role;
+};
+
 /// What studies ask of the rest of the server. Thread-safe.
 class StudyDependencies {
  public:
   virtual ~StudyDependencies() = default;
-  /// Name of a user, none for an unknown id.
-  virtual std::optional<std::string> name_of_user(const std::string& user_id) const = 0;
+  /// None for an unknown id.
+  virtual std::optional<StudyUser> find_user(const std::string& user_id) const = 0;
   virtual bool has_case(const std::string& case_id) const = 0;
   /// All sessions of a study that have run and ended.
   virtual std::vector<session::SessionRecord> sessions(const std::string& study_id) const = 0;
@@ -46,7 +53,7 @@ class StudyDependencies {
 /// know of too; conflict when the study's state does not allow it; those of the database.
 class StudyService {
  public:
-  StudyService(store::Database& database, std::unique_ptr<const StudyDependencies> dependencies);
+  StudyService(store::Database& database, std::shared_ptr<const StudyDependencies> dependencies);
 
   Study create(const StudyDraft& draft);
   /// Newest first; trainees have those they take part in.
@@ -71,6 +78,8 @@ class StudyService {
   /// By code. While a study is open only operators learn what else is known of a participant than the code,
   /// so that who scores does not know who is how experienced.
   std::vector<Participant> participants(const net::Caller& caller, const std::string& id) const;
+  /// Codes of all who take part.
+  std::set<std::string> codes(const std::string& id) const;
   /// How many take part.
   int64_t count(const std::string& id) const { return table_.count(id); }
   /// Trainees have themselves only; of others only the code is told as in the list.
@@ -94,6 +103,8 @@ class StudyService {
   /// Makes a wanted session one of the study that it names: checks that it may be, fills in the participant
   /// and the study's settings. `wanted.participant` empty: the caller.
   void admit(const net::Caller& caller, session::SessionRequest& wanted) const;
+  /// What the participant does next by the study's design; none when all is done, or without a design.
+  std::optional<NextSession> next(const Study& study, const std::string& code) const;
   /// What the caller may know of who trained.
   Blinding blinding(const net::Caller& caller) const;
 
@@ -104,9 +115,12 @@ class StudyService {
   Participant add_participant(const Study& study, const NewParticipant& wanted,
                               const std::optional<store::PersonRow>& person);
   void require_settings(const StudySettings& settings) const;
+  /// Makes a session of a study with a design what the participant does next.
+  void place_in_design(const Study& study, session::SessionRequest& wanted) const;
 
   mutable store::StudyTable table_;
-  const std::unique_ptr<const StudyDependencies> dependencies_;
+  store::RatingTable ratings_;
+  const std::shared_ptr<const StudyDependencies> dependencies_;
 };
 
 }  // namespace ream::study

@@ -158,3 +158,69 @@ test('an instructor enrols somebody without an account and trains with their cod
   await page.getByTestId('questionnaire-notice').getByRole('link').click();
   await expect(page.getByTestId('questionnaire')).toContainText(code);
 });
+
+test('a study with a design: the trainee is tested, and a rater who does not know whose replay it is rates it', async ({
+  browser,
+}) => {
+  const operator = await windowOf(browser, olga);
+  await expect
+    .poll(async () => (await operator.request.get(`${here.server.url}/readyz`)).status(), { timeout: 60_000 })
+    .toBe(200);
+  await operator.getByTestId('to-studies').click();
+  await operator.getByTestId('study-name').fill('Does training help?');
+  await operator.getByTestId('study-design').selectOption('arms');
+  await operator.getByTestId('remove-arm-2').click();
+  await operator.getByTestId('arm-sessions-1').fill('2');
+  await operator.getByTestId('make-study').click();
+  await expect(operator.getByTestId('study-title')).toHaveText('Does training help?');
+  const joinCode = (await operator.getByTestId('study-join-code').textContent()) ?? '';
+  await operator.getByTestId('rater-user').selectOption({ label: 'Ines Instructor' });
+  await operator.getByTestId('add-rater').click();
+  await expect(operator.getByTestId('rater-R1')).toContainText('0 of 0');
+
+  const trainee = await windowOf(browser, tom);
+  const code = await join(trainee, joinCode);
+  await expect(trainee.getByTestId('next-session')).toHaveText('Your next session: test before training, 1 of 1.');
+  await train(trainee);
+  await trainee.getByTestId('bone-canvas').focus();
+  await trainee.keyboard.press('s');
+  await trainee.keyboard.down(' ');
+  const removedMm3 = async () => parseFloat((await trainee.getByTestId('removed-volume').textContent()) ?? '');
+  await expect.poll(removedMm3, { timeout: 120_000 }).toBeGreaterThan(1);
+  await trainee.keyboard.up(' ');
+  await trainee.getByTestId('stop').click();
+  await expect(trainee.getByTestId('session-state')).toHaveAttribute('data-state', 'stopped');
+  await trainee.getByTestId('to-studies').click();
+  await trainee.getByRole('link', { name: 'Does training help?' }).click();
+  await expect(trainee.getByTestId('next-session')).toHaveText('Your next session: training, 1 of 2.');
+
+  // Lists and pages of sessions say nothing to the rater.
+  const rater = await windowOf(browser, ines);
+  await rater.getByTestId('to-sessions').click();
+  await expect(rater.getByTestId('session-table').getByRole('row')).toHaveCount(2);
+  expect(await rater.locator('body').innerText()).not.toMatch(new RegExp(`Tom|${code}`));
+  await rater.getByTestId('to-studies').click();
+  await rater.getByRole('link', { name: 'Does training help?' }).click();
+  await rater.getByTestId('to-rating').click();
+  await expect(rater.getByTestId('rating-progress')).toHaveText('0 of 1 replays rated.');
+  await expect(rater.getByTestId('rated-replay').locator('[data-complete="true"]')).toBeVisible({ timeout: 60_000 });
+  await rater.getByTestId('play').click();
+  await expect(rater.getByTestId('play')).toHaveAttribute('data-playing', 'true');
+  await rater.getByTestId('send-answers').click();
+  await expect(rater.getByTestId('missing')).toContainText('answers are missing');
+  for (const group of await rater
+    .getByRole('group')
+    .filter({ has: rater.getByRole('radio') })
+    .all())
+    await group.getByRole('radio').nth(1).check();
+  await rater.getByTestId('send-answers').click();
+  await expect(rater.getByTestId('answers-status')).toContainText('saved');
+  await expect(rater.getByTestId('rating-progress')).toHaveText('1 of 1 replays rated.');
+  expect(await rater.locator('body').innerText()).not.toMatch(new RegExp(`Tom|${code}`));
+
+  await operator.reload();
+  await expect(operator.getByTestId('rater-R1')).toContainText('1 of 1');
+  const ratings = await savedBy(operator, 'export-ratings');
+  expect(ratings).toContain(`${code},novice,1,training_1,pre,R1,2,`);
+  expect(ratings).not.toMatch(/Ines|Tom/);
+});

@@ -20,6 +20,7 @@ constexpr std::array text_labels{TextLabel{"trainee_id", &SessionRequest::traine
                                  TextLabel{"trainee", &SessionRequest::trainee},
                                  TextLabel{"study", &SessionRequest::study},
                                  TextLabel{"participant", &SessionRequest::participant},
+                                 TextLabel{"phase", &SessionRequest::phase},
                                  TextLabel{"title", &SessionRequest::title},
                                  TextLabel{"reset_of", &SessionRequest::reset_of},
                                  TextLabel{"followed_by", &SessionRequest::followed_by}};

@@ -7,6 +7,7 @@
 #include "store/dialect.hpp"
 #include "store/idempotency_table.hpp"
 #include "store/migrations.hpp"
+#include "store/rating_table.hpp"
 #include "store/session_index.hpp"
 #include "store/sql.hpp"
 #include "store/study_table.hpp"
@@ -74,6 +75,8 @@ TYPED_TEST(GoldenDatabasesTest, AreOpenedWithAllTheirRows) {
     EXPECT_TRUE(step < 20 || IdempotencyTable(*today).find("u1", "k1"));
     if (step < 30) continue;
     EXPECT_EQ(StudyTable(*today).codes_of("u1").at("st1"), "P01");
+    EXPECT_EQ(StudyTable(*today).participant("st1", "P01")->arm, step < 60 ? "" : "control");
+    EXPECT_EQ(RatingTable(*today).ratings("st1").size(), step < 60 ? 0u : 1u);
   }
 }
 

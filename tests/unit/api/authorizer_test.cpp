@@ -67,6 +67,9 @@ class GateTest : public test::TestDatabase<test::OnSqlite>, protected SessionFin
     }
   }
 
+  bool is_rated_by(const net::Caller& caller, const std::string& id) const override {
+    return rated.contains({caller.user_id, id});
+  }
   std::optional<session::SessionRequest> session_of(const std::string& id) const override {
     if (id != "toms" && id != "others") return std::nullopt;
     session::SessionRequest found;
@@ -77,6 +80,7 @@ class GateTest : public test::TestDatabase<test::OnSqlite>, protected SessionFin
 
   access::AccessControl access_control{database(), {machine_clock(), {}, {1, size_t{8} << 10}, 2}};
   Authorizer authorizer{access_control, *this};
+  std::set<std::pair<std::string, std::string>> rated;  ///< user and session
   std::string anna, tom;
   const std::string users = "/api/v1/users", sessions = "/api/v1/sessions", login = "/api/v1/login";
 };
@@ -223,6 +227,18 @@ TEST_F(GateTest, AWebSocketByCookieSaysItsOrigin) {
   program.headers["upgrade"] = "websocket";
   program.parameters["id"] = "toms";
   EXPECT_EQ(refusal(program, sessions + "/{id}/stream"), 0);
+}
+
+TEST_F(GateTest, ARaterSeesSessionsInTheQueueOnly) {
+  add_users();
+  const std::string ines = add("ines", Role::instructor);
+  rated = {{ines, "toms"}};
+  for (const auto& [id, status] : {std::pair{"toms", 403}, {"others", 0}}) {
+    net::Request asked = with_token("GET", ines);
+    asked.parameters["id"] = id;
+    EXPECT_EQ(refusal(asked, sessions + "/{id}"), status) << id;
+    EXPECT_EQ(refusal(asked, sessions + "/{id}/score"), status) << id;
+  }
 }
 
 TEST_F(GateTest, WhatIsBelowASessionThatOneMayNotSeeDoesNotExist) {

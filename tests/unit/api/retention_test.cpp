@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 /// A server that has every case, and no users or sessions.
 struct EveryCase final : study::StudyDependencies {
-  std::optional<std::string> name_of_user(const std::string&) const override { return std::nullopt; }
+  std::optional<study::StudyUser> find_user(const std::string&) const override { return std::nullopt; }
   bool has_case(const std::string&) const override { return true; }
   std::vector<session::SessionRecord> sessions(const std::string&) const override { return {}; }
   nlohmann::json metrics(const std::string&) const override { return nlohmann::json::object(); }

@@ -39,10 +39,10 @@ int refused(Action&& action) {
 class FakeServer final : public StudyDependencies {
  public:
   explicit FakeServer(const std::vector<session::SessionRecord>& sessions) : sessions_(sessions) {}
-  std::optional<std::string> name_of_user(const std::string& id) const override {
-    return id == ada.user_id   ? std::optional(ada.name)
-           : id == bob.user_id ? std::optional(bob.name)
-                               : std::nullopt;
+  std::optional<StudyUser> find_user(const std::string& id) const override {
+    for (const net::Caller& one : {ada, bob, instructor, the_operator})
+      if (id == one.user_id) return StudyUser{one.name, one.role};
+    return std::nullopt;
   }
   bool has_case(const std::string& id) const override { return id != "missing"; }
   std::vector<session::SessionRecord> sessions(const std::string&) const override { return sessions_; }
@@ -57,7 +57,7 @@ class StudyServiceTest : public testing::Test {
   static StudyDraft draft(const std::vector<std::string>& cases = {"demo", "hard"}) {
     return {"First year",
             "Who presses too hard?",
-            {cases, "practice", "browser", "touch"},
+            {cases, "practice", "browser", "touch", std::nullopt, default_rating_form()},
             face_validity_questionnaire()};
   }
   std::string made() { return service_.create(draft()).id; }
@@ -156,7 +156,8 @@ TEST_F(StudyServiceTest, WhoScoresKnowsTheCodeOnly) {
                                       {"experience", nullptr},
                                       {"procedures_done", nullptr},
                                       {"answers", nullptr},
-                                      {"has_account", true}}));
+                                      {"has_account", true},
+                                      {"arm", nullptr}}));
   EXPECT_EQ(api::to_json(service_.participants(instructor, id)[0]), api::to_json(seen));
   EXPECT_EQ(service_.participant(the_operator, id, code).experience, "expert");
   EXPECT_EQ(service_.participant(ada, id, code).answers, answers());

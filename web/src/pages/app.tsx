@@ -76,6 +76,7 @@ function Page({ route, live, identity }: { route: Route; live: LivePageParts; id
     case 'studies':
     case 'study':
     case 'questionnaire':
+    case 'rating':
       if (!may.takePart) return <NotForYou />;
       return studyPages.show(({ StudyPages }) => <StudyPages route={route} live={live} />);
     case 'users':

@@ -6,6 +6,7 @@ import { useIdentity } from '../panels/common/site_nav';
 import { EnrolPanel } from '../panels/study/enrol_panel';
 import { ExportPanel, StudyStatePanel } from '../panels/study/study_state_panel';
 import { ParticipantTable } from '../panels/study/participant_table';
+import { RaterPanel } from '../panels/study/rater_panel';
 import { TrainPanel } from '../panels/study/train_panel';
 import { Remote } from '../state/remote';
 import { addressOfRoute } from '../state/route';
@@ -80,6 +81,11 @@ function About({ api, study, studies, mayRun, empty, removed }: AboutParts) {
         <span class={study.state === 'open' ? 'chip chip-good' : 'chip'} data-testid="study-state">
           {studyText.states[study.state]}
         </span>
+        {study.rates && (
+          <a class="plain-button" data-testid="to-rating" href={addressOfRoute({ kind: 'rating', id: study.id })}>
+            {studyText.rate}
+          </a>
+        )}
         {!study.blinded && <span class="chip chip-warn">{studyText.unblinded}</span>}
         {mayRun && <StudyStatePanel {...{ api, study, studies, empty }} onRemoved={removed} />}
       </div>
@@ -88,6 +94,7 @@ function About({ api, study, studies, mayRun, empty, removed }: AboutParts) {
         {studyText.cases}: {study.cases.join(', ')}
         {study.device !== null && ` · ${studyText.device}: ${deviceText(study.device)}`}
         {study.questionnaire && ` · ${studyText.questionnaire}: ${study.questionnaire.title}`}
+        {study.design && ` · ${studyText.arms}: ${study.design.arms.map((arm) => arm.name).join(', ')}`}
       </p>
     </>
   );
@@ -108,6 +115,7 @@ function Staff({ api, study, studies, participants }: StaffParts) {
   return (
     <>
       <ParticipantTable key={study.state} {...{ api, study, participants }} />
+      <RaterPanel {...{ api, study }} />
       {study.state === 'open' && <EnrolPanel {...{ api, study, participants }} />}
       <ExportPanel {...{ api, study, studies }} />
     </>

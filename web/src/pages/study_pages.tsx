@@ -6,6 +6,7 @@ import { StudyApi } from '../wire/study_api';
 import { noAnswer } from '../wire/rest';
 import type { LivePageParts } from './live_page';
 import { QuestionnairePage } from './questionnaire_page';
+import { RatingPage } from './rating_page';
 import { StudiesPage } from './studies_page';
 import { StudyPage } from './study_page';
 
@@ -15,6 +16,7 @@ const api = new StudyApi(window.location.origin);
 export function StudyPages({ route, live }: { route: Route; live: LivePageParts }) {
   if (route.kind === 'questionnaire')
     return <QuestionnairePage key={route.participant} api={api} studyId={route.id} code={route.participant} />;
+  if (route.kind === 'rating') return <RatingPage key={route.id} api={api} studyId={route.id} />;
   if (route.kind === 'study')
     return (
       <StudyPage

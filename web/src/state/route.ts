@@ -13,6 +13,8 @@ export type Route =
   | { kind: 'studies' }
   | { kind: 'study'; id: string }
   | { kind: 'questionnaire'; id: string; participant: string }
+  /** The replays of a study that the user rates. */
+  | { kind: 'rating'; id: string }
   | { kind: 'users' }
   | { kind: 'account' };
 
@@ -23,6 +25,8 @@ export function routeInAddress(hash: string): Route {
   const [reviewed, reviewId = '', beside = null] =
     /^#\/review\/([0-9a-z]{4,32})(?:\/([0-9a-z]{4,32}))?\/?(?:\?.*)?$/.exec(hash) ?? [];
   if (reviewed !== undefined) return { kind: 'review', id: reviewId, beside };
+  const [rating, ratedId = ''] = /^#\/studies\/([a-z0-9-]{1,64})\/rate\/?(?:\?.*)?$/.exec(hash) ?? [];
+  if (rating !== undefined) return { kind: 'rating', id: ratedId };
   const [found, place = '', id, participant] =
     /^#\/([a-z]+)(?:\/([a-z0-9-]{1,64})(?:\/answers\/([2-9A-Z]{2}-[2-9A-Z]{3}))?)?\/?(?:\?.*)?$/.exec(hash) ?? [];
   if (found === undefined) return { kind: 'live' };
@@ -47,6 +51,8 @@ export function addressOfRoute(route: Route): string {
       return `#/studies/${route.id}`;
     case 'questionnaire':
       return `#/studies/${route.id}/answers/${route.participant}`;
+    case 'rating':
+      return `#/studies/${route.id}/rate`;
     case 'trainee':
     case 'sessions':
     case 'cases':

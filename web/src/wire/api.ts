@@ -23,8 +23,13 @@ export class Api {
     return this.rest.json('post', '/api/v1/sessions', { body });
   }
   /** A session of a study; participant null: the user. */
+  /** An empty `caseId`: the study knows which one is next. */
   createInStudy(study: string, participant: string | null, caseId: string): Promise<Session> {
-    const body = { study, case: caseId, ...(participant === null ? {} : { participant }) };
+    const body = {
+      study,
+      ...(caseId === '' ? {} : { case: caseId }),
+      ...(participant === null ? {} : { participant }),
+    };
     return this.rest.json('post', '/api/v1/sessions', { body });
   }
   /** Throws, in the server's words, while it still prepares for sessions. */

@@ -1,7 +1,17 @@
 import { RestClient } from './rest_client';
-import type { GivenAnswers, NewParticipant, NewStudy, Participant, Person, Study } from './rest_types';
+import type {
+  GivenAnswers,
+  NewParticipant,
+  NewStudy,
+  Participant,
+  Person,
+  QueuedRating,
+  Rater,
+  Replay,
+  Study,
+} from './rest_types';
 
-export type ExportTable = 'sessions' | 'answers' | 'groups';
+export type ExportTable = 'sessions' | 'answers' | 'groups' | 'ratings';
 
 /** Calls of the REST interface about studies; `base` is the server's origin. */
 export class StudyApi {
@@ -54,6 +64,26 @@ export class StudyApi {
   }
   async persons(id: string): Promise<Person[]> {
     return (await this.rest.json('get', '/api/v1/studies/{id}/persons', { path: { id } })).persons;
+  }
+
+  async raters(id: string): Promise<Rater[]> {
+    return (await this.rest.json('get', '/api/v1/studies/{id}/raters', { path: { id } })).raters;
+  }
+  addRater(id: string, userId: string): Promise<Rater> {
+    return this.rest.json('post', '/api/v1/studies/{id}/raters', { path: { id }, body: { user_id: userId } });
+  }
+  async removeRater(id: string, label: string): Promise<void> {
+    await this.rest.request('delete', '/api/v1/studies/{id}/raters/{label}', { path: { id, label } });
+  }
+  /** What the user rates. */
+  async ratingQueue(id: string): Promise<QueuedRating[]> {
+    return (await this.rest.json('get', '/api/v1/studies/{id}/rating-queue', { path: { id } })).queue;
+  }
+  rate(id: string, key: string, body: GivenAnswers): Promise<QueuedRating> {
+    return this.rest.json('put', '/api/v1/studies/{id}/rating-queue/{key}', { path: { id, key }, body });
+  }
+  replayForRating(id: string, key: string): Promise<Replay> {
+    return this.rest.json('post', '/api/v1/studies/{id}/rating-queue/{key}/replay', { path: { id, key } });
   }
 
   /** A table for statistics, or all of them as JSON. */

@@ -22,6 +22,7 @@ describe('route', () => {
       '#/studies',
       '#/studies/s1',
       '#/studies/s1/answers/K7-F3M',
+      '#/studies/s1/rate',
       '#/users',
       '#/account',
     ]) {

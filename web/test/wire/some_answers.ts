@@ -6,7 +6,16 @@ const times = { mean_us: 0, p50_us: 0, p99_us: 0, p999_us: 0, max_us: 0 };
 export const someSession = (changes: Partial<Session> = {}): Session => ({
   ...{ id: 'abcd', kind: 'session', case: 'demo', script: 'demo', state: 'running', held: false, keep: false },
   ...{ created_utc: '2026-01-01T00:00:00Z', tick: 0, duration_s: 0, force_scale: 1, fault: null, streamable: true },
-  ...{ score: null, trainee_id: null, trainee: null, study: null, participant: null, title: null, theatre: false },
+  ...{
+    score: null,
+    trainee_id: null,
+    trainee: null,
+    study: null,
+    participant: null,
+    phase: null,
+    title: null,
+    theatre: false,
+  },
   ...{ reset_of: null, attempt: 1, followed_by: null, device: someDevice('script') },
   loop: {
     ...times,

@@ -91,3 +91,25 @@ export function Count({ label, testId, onChange, ...rest }: CountParts) {
     </label>
   );
 }
+
+interface CheckParts {
+  label: string;
+  testId: string;
+  checked: boolean;
+  onChange: (checked: boolean) => void;
+}
+
+/** A yes or no, in a form. */
+export function Check({ label, testId, checked, onChange }: CheckParts) {
+  return (
+    <label class="check">
+      <input
+        type="checkbox"
+        data-testid={testId}
+        checked={checked}
+        onChange={(event) => onChange(event.currentTarget.checked)}
+      />
+      {label}
+    </label>
+  );
+}

@@ -9,6 +9,7 @@ import { Message } from '../common/fields';
 import { Choice, TextLine } from '../common/form_fields';
 import { useRemote } from '../common/use_remote';
 import { Button } from '../common/button';
+import { DesignFields } from './design_fields';
 
 /** The form for another study. */
 export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: string) => void }) {
@@ -40,6 +41,15 @@ export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: st
           onChange={(device) => (draft.device.value = device)}
         />
         <QuestionnaireFields draft={draft} />
+        <Choice
+          {...{ label: studyText.ratingForm, testId: 'study-rating-form', value: draft.rated.value ? 'ours' : '' }}
+          options={[
+            ['ours', studyText.ownRatingForm],
+            ['', studyText.noRatingForm],
+          ]}
+          onChange={(chosen) => (draft.rated.value = chosen !== '')}
+        />
+        <DesignFields draft={draft.design} />
         <DescriptionField draft={draft} />
         <CaseFields draft={draft} />
         <Button submit look="main" testId="make-study" disabled={!draft.complete}>

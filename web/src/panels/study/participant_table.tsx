@@ -59,6 +59,7 @@ export function ParticipantTable({ api, study, participants }: Parts) {
                 <th scope="col" class="number">
                   {studyText.proceduresShort}
                 </th>
+                {study.design && <th scope="col">{studyText.arm}</th>}
                 <th scope="col">{studyText.answered}</th>
                 <th />
               </tr>
@@ -103,6 +104,15 @@ function Row({
         )}
       </td>
       <td class="number">{one.procedures_done ?? ''}</td>
+      {study.design && (
+        <td>
+          {one.arm === null ? (
+            <span class="soft">{studyText.hidden}</span>
+          ) : (
+            (study.design.arms.find((arm) => arm.id === one.arm)?.name ?? one.arm)
+          )}
+        </td>
+      )}
       <td>
         {unknown ? (
           <span class="soft">{studyText.hidden}</span>

@@ -84,6 +84,7 @@ function LikertAnswers({ item, sheet }: Parts<LikertItem>) {
       <span class="likert-end likert-high" aria-hidden="true">
         {item.high}
       </span>
+      {item.middle !== '' && <p class="likert-middle soft">{studyText.middle((item.points + 1) / 2, item.middle)}</p>}
       {item.cannot_judge && (
         <label class="likert-none">
           <input

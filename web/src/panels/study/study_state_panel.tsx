@@ -71,6 +71,7 @@ const tables = [
   ['sessions', studyText.exportSessions],
   ['answers', studyText.exportAnswers],
   ['groups', studyText.exportGroups],
+  ['ratings', studyText.exportRatings],
   ['json', studyText.exportAll],
 ] as const;
 

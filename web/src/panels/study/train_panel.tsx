@@ -27,7 +27,9 @@ export function TrainPanel({ study, codes, train }: Parts) {
     event.preventDefault();
     if (participant === null) return;
     busy.value = true;
-    if (!(await train(participant === own ? null : participant, caseId.value))) busy.value = false;
+    // With a design the server knows which case is next.
+    const wanted = study.design ? '' : caseId.value;
+    if (!(await train(participant === own ? null : participant, wanted))) busy.value = false;
   };
   if (study.state === 'closed' || (own === null && codes.length === 0)) return null;
   return (
@@ -38,6 +40,7 @@ export function TrainPanel({ study, codes, train }: Parts) {
           {studyText.yourCode(own)}
         </p>
       )}
+      {own !== null && study.design && <NextSession study={study} />}
       <form class="content-form" onSubmit={(event) => void start(event)}>
         {may.teach && codes.length > 0 && (
           <Choice
@@ -46,7 +49,7 @@ export function TrainPanel({ study, codes, train }: Parts) {
             onChange={(code) => (choice.value = code)}
           />
         )}
-        {study.cases.length > 1 && (
+        {study.cases.length > 1 && !study.design && (
           <Choice
             {...{ label: studyText.onCase, testId: 'train-on', value: caseId.value }}
             options={study.cases.map((id) => [id, id])}
@@ -73,5 +76,22 @@ export function TrainPanel({ study, codes, train }: Parts) {
         )}
       </form>
     </section>
+  );
+}
+
+/** What the design asks of the user next. */
+function NextSession({ study }: { study: Study }) {
+  const next = study.next_session;
+  if (!next)
+    return (
+      <p class="soft" data-testid="next-session">
+        {studyText.allDone}
+      </p>
+    );
+  return (
+    <p class="soft" data-testid="next-session">
+      {studyText.next(studyText.phases[next.phase], next.number, next.of)}{' '}
+      {next.not_before !== null && studyText.nextFrom(next.not_before)}
+    </p>
   );
 }

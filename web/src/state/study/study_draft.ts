@@ -1,5 +1,6 @@
 import { signal } from '@preact/signals';
 
+import { DesignDraft } from './design_draft';
 import { studyText } from '../../text/study_text';
 import type { NewStudy } from '../../wire/rest_types';
 
@@ -13,6 +14,9 @@ export class StudyDraft {
   readonly cases = signal<readonly string[]>(['demo']);
   /** Empty: the server's usual one. */
   readonly device = signal('browser');
+  readonly design = new DesignDraft();
+  /** Raters fill in the form that comes with the program; else nobody rates. */
+  readonly rated = signal(true);
   readonly questionnaireChoice = signal<QuestionnaireChoice>('ours');
   /** From a file; whether it is one, the server says. */
   readonly questionnaire = signal<NewStudy['questionnaire']>(null);
@@ -21,7 +25,9 @@ export class StudyDraft {
 
   get complete(): boolean {
     return (
-      this.cases.value.length > 0 && (this.questionnaireChoice.value !== 'file' || this.questionnaire.value !== null)
+      this.design.complete &&
+      this.cases.value.length > 0 &&
+      (this.questionnaireChoice.value !== 'file' || this.questionnaire.value !== null)
     );
   }
 
@@ -44,10 +50,13 @@ export class StudyDraft {
   /** What the server is asked for. */
   study(): NewStudy {
     const questionnaireChoice = this.questionnaireChoice.value;
+    const design = this.design.design();
     return {
       name: this.name.value.trim(),
       description: this.description.value.trim(),
       cases: [...this.cases.value],
+      ...(design === null ? {} : { design }),
+      ...(this.rated.value ? {} : { rating_form: null }),
       ...(this.device.value === '' ? {} : { device: this.device.value }),
       ...(questionnaireChoice === 'ours'
         ? {}

@@ -11,6 +11,7 @@ const likert = (id: string, section: string): QuestionnaireItem => ({
   required: true,
   points: 5,
   low: 'no',
+  middle: '',
   high: 'yes',
   cannot_judge: true,
 });

@@ -1,0 +1,133 @@
+#include "study/rating_service.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "access/role.hpp"
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "core/json.hpp"
+#include "study/study_sessions.hpp"
+
+namespace ream::study {
+using nlohmann::json;
+namespace {
+
+/// A session's name for one rater. The study's seed, which nobody sees while it is open, keeps a rater from
+/// working it out.
+std::string key_of(const Study& study, const std::string& label, const std::string& session) {
+  const uint64_t seed = hash_text(study.id, hash_text(study.allocation_seed));
+  return to_hex(hash_text(session, hash_text(label, seed)));
+}
+
+bool is_rated(const Study& study, const session::SessionRecord& session) {
+  if (!carried_out(session)) return false;
+  if (!study.settings.design) return true;
+  const auto phase = phase_from(session.request.phase);
+  return phase && is_test(*phase);
+}
+
+const Questionnaire& form_of(const Study& study) {
+  if (!study.settings.rating_form)
+    throw Error(ErrorKind::conflict, "study '" + study.id + "' has no form for raters");
+  return *study.settings.rating_form;
+}
+
+}  // namespace
+
+Rater RatingService::add(const net::Caller& caller, const std::string& study_id, const std::string& user_id) {
+  const Study study = studies_.get(caller, study_id);
+  form_of(study);
+  if (!study.open)
+    throw Error(ErrorKind::conflict, "study '" + study_id + "' is closed; nobody rates it any more");
+  const auto user = dependencies_->find_user(user_id);
+  if (!user) throw Error(ErrorKind::not_found, "no user '" + user_id + "'");
+  if (access::is_operator(user->role))
+    throw Error(ErrorKind::conflict,
+                user->name + " is an operator and sees who takes part; only instructors rate blind");
+  if (!access::is_staff(user->role))
+    throw Error(ErrorKind::conflict, user->name + " is no instructor; only instructors rate");
+  for (const store::RaterRow& rater : table_.raters(study_id))
+    if (rater.user_id == user_id)
+      throw Error(ErrorKind::conflict, user->name + " rates study '" + study_id + "' already");
+  const std::string label = table_.add_rater(study_id, user_id, user->name);
+  const store::RaterRow row{label, user_id, user->name};
+  return {label, user_id, user->name, 0, static_cast<int64_t>(queue_of(study, row).size())};
+}
+
+void RatingService::remove(const std::string& study, const std::string& label) {
+  table_.remove_rater(study, label);
+}
+
+std::vector<Rater> RatingService::raters(const net::Caller& caller, const std::string& study_id) const {
+  const Study study = studies_.get(caller, study_id);
+  std::vector<Rater> list;
+  for (const store::RaterRow& row : table_.raters(study_id)) {
+    const std::vector<QueuedRating> queue = queue_of(study, row);
+    const auto rated =
+        std::count_if(queue.begin(), queue.end(), [](const auto& one) { return one.answers.has_value(); });
+    list.push_back({row.label, row.user_id, row.name, rated, static_cast<int64_t>(queue.size())});
+  }
+  return list;
+}
+
+std::vector<QueuedRating> RatingService::queue_of(const Study& study, const store::RaterRow& rater) const {
+  std::map<std::string, std::string> answers;
+  for (const store::RatingRow& row : table_.ratings(study.id))
+    if (row.rater == rater.label) answers[row.session] = row.answers;
+  std::vector<QueuedRating> queue;
+  const std::set<std::string> codes = studies_.codes(study.id);
+  for (const session::SessionRecord& session : dependencies_->sessions(study.id)) {
+    const std::string& id = session.request.id;
+    if (!is_rated(study, session) || !codes.contains(session.request.participant) ||
+        (!rater.user_id.empty() && session.request.trainee_id == rater.user_id))
+      continue;
+    const auto given = answers.find(id);
+    queue.push_back({key_of(study, rater.label, id), id,
+                     given == answers.end() ? std::nullopt : std::optional(parse_json(given->second))});
+  }
+  std::sort(queue.begin(), queue.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
+  return queue;
+}
+
+store::RaterRow RatingService::rater_of(const net::Caller& caller, const std::string& study) const {
+  for (const store::RaterRow& rater : table_.raters(study))
+    if (!caller.user_id.empty() && rater.user_id == caller.user_id) return rater;
+  throw Error(ErrorKind::not_found, "you do not rate study '" + study + "'");
+}
+
+std::vector<QueuedRating> RatingService::queue(const net::Caller& caller, const std::string& study_id) const {
+  const Study study = studies_.get(caller, study_id);
+  return queue_of(study, rater_of(caller, study_id));
+}
+
+QueuedRating RatingService::queued(const net::Caller& caller, const std::string& study,
+                                   const std::string& key) const {
+  for (QueuedRating& one : queue(caller, study))
+    if (one.key == key) return one;
+  throw Error(ErrorKind::not_found, "no session '" + key + "' in your rating queue of study '" + study + "'");
+}
+
+void RatingService::rate(const net::Caller& caller, const std::string& study_id, const std::string& key,
+                         const json& answers) {
+  const Study study = studies_.get(caller, study_id);
+  const store::RaterRow rater = rater_of(caller, study_id);
+  const QueuedRating one = queued(caller, study_id, key);
+  if (!study.open)
+    throw Error(ErrorKind::conflict, "study '" + study_id + "' is closed; ratings can no longer change");
+  if (const auto faults = faults_of_answers(form_of(study), answers); !faults.empty())
+    throw net::RequestError(422, "the rating cannot be used: " + faults.front().detail, faults);
+  table_.set(study_id, {rater.label, one.session, answers.dump()});
+}
+
+bool RatingService::rates(const net::Caller& caller, const std::string& study) const {
+  return table_.labels_of(caller.user_id).contains(study);
+}
+
+bool RatingService::hides(const net::Caller& caller, const session::SessionRequest& session) const {
+  if (session.study.empty() || caller.user_id.empty()) return false;
+  return studies_.blinding(caller).hides_all(session);
+}
+
+}  // namespace ream::study
