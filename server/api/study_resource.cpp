@@ -7,6 +7,8 @@
 #include "core/text.hpp"
 #include "net/problem.hpp"
 #include "study/study_sessions.hpp"
+#include "study/validity_input.hpp"
+#include "study/validity_tables.hpp"
 
 namespace ream::api {
 using nlohmann::json;
@@ -161,6 +163,13 @@ net::Response list_persons(const Services& services, const net::Request& request
   return net::json_response(200, {{"persons", std::move(list)}});
 }
 
+net::Response csv_reply(const session::ExportTable& table, const std::string& file) {
+  net::Response response =
+      net::bytes_response(200, "text/csv; charset=utf-8; header=present", net::share(session::csv_of(table)));
+  response.headers.emplace_back("Content-Disposition", "attachment; filename=\"" + file + "\"");
+  return response;
+}
+
 net::Response export_study(const Services& services, const net::Request& request) {
   const std::string format = query_text(request, "format", "json");
   const std::string table = query_text(request, "table", "sessions");
@@ -176,11 +185,25 @@ net::Response export_study(const Services& services, const net::Request& request
                                        : table == "groups"  ? all.groups
                                        : table == "ratings" ? all.ratings
                                                             : all.sessions;
-  net::Response response = net::bytes_response(200, "text/csv; charset=utf-8; header=present",
-                                               net::share(session::csv_of(chosen)));
-  response.headers.emplace_back("Content-Disposition",
-                                "attachment; filename=\"" + id_of(request) + "-" + table + ".csv\"");
-  return response;
+  return csv_reply(chosen, id_of(request) + "-" + table + ".csv");
+}
+
+/// Tables have the names under which the script reads them.
+net::Response get_validity(const Services& services, const net::Request& request) {
+  const std::string form = query_text(request, "form", "report");
+  const study::ValidityInput input = services.studies.validity_input(request.caller, id_of(request));
+  services.audit(request, "study.validity", id_of(request), form);
+  if (form == "sessions") return csv_reply(validity_sessions_table(input), "sessions.csv");
+  if (form == "ratings") return csv_reply(validity_ratings_table(input), "ratings.csv");
+  if (form == "script") {
+    net::Response response = net::bytes_response(200, "text/plain; charset=utf-8",
+                                                 net::share(std::string(study::validity_script())));
+    response.headers.emplace_back("Content-Disposition", "attachment; filename=\"validity.R\"");
+    return response;
+  }
+  const study::ValidityReport report = validity_report(input);
+  if (form == "numbers") return csv_reply(validity_numbers_table(report), "numbers.csv");
+  return net::json_response(200, validity_json(report));
 }
 
 net::Response get_study(const Services& services, const net::Request& request) {
@@ -258,6 +281,7 @@ std::vector<Route> study_routes() {
           {"PUT", participant + "/answers", reamers, changes("study.answers"), answer_questions, changed},
           {"GET", one + "/persons", staff, audited_by_handler, list_persons},
           {"GET", one + "/codebook", staff, not_audited, get_codebook},
+          {"GET", one + "/validity", staff, audited_by_handler, get_validity},
           {"GET", one + "/export", staff, audited_by_handler, export_study}};
 }
 

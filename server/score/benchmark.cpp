@@ -7,6 +7,7 @@
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/json_reader.hpp"
+#include "statistics/sample.hpp"
 
 namespace ream::score {
 namespace {
@@ -15,6 +16,8 @@ namespace {
 constexpr double half_rounding = 5e-7;
 
 using nlohmann::json;
+using statistics::Spread;
+using statistics::spread_of;
 
 /// One expert's value of a metric.
 struct ExpertValue {
@@ -74,16 +77,6 @@ BenchmarkLine line_from(JsonReader& reader) {
 }
 
 }  // namespace
-
-Spread spread_of(std::span<const double> values) {
-  Spread result;
-  for (const double value : values) result.mean += value;
-  result.mean /= static_cast<double>(values.size());
-  double squares = 0.0;
-  for (const double value : values) squares += (value - result.mean) * (value - result.mean);
-  result.sd = std::sqrt(squares / static_cast<double>(values.size() - 1));
-  return result;
-}
 
 Benchmark make_benchmark(const std::string& name, const std::vector<EndedSession>& experts) {
   if (experts.empty())

@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -10,12 +9,6 @@
 #include "score/metric_catalogue.hpp"
 
 namespace ream::score {
-
-/// Mean and standard deviation (n - 1) of at least two values.
-struct Spread {
-  double mean = 0.0, sd = 0.0;
-};
-Spread spread_of(std::span<const double> values);
 
 /// What experts reach in one metric.
 struct BenchmarkLine {

@@ -8,19 +8,14 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "score/benchmark.hpp"
+#include "statistics/sample.hpp"
 
 namespace ream::score {
 using nlohmann::json;
+using statistics::quantile;
+using statistics::Spread;
+using statistics::spread_of;
 namespace {
-
-/// Quantile by linear interpolation between order statistics.
-double quantile(const std::vector<double>& sorted, double share) {
-  const double at = share * static_cast<double>(sorted.size() - 1);
-  const size_t low = static_cast<size_t>(at);
-  const size_t high = std::min(low + 1, sorted.size() - 1);
-  return sorted[low] + (at - static_cast<double>(low)) * (sorted[high] - sorted[low]);
-}
 
 double silverman_width(std::vector<double> values, double sd) {
   std::sort(values.begin(), values.end());

@@ -8,6 +8,7 @@
 #include "study/study_rows.hpp"
 #include "study/study_service.hpp"
 #include "study/study_sessions.hpp"
+#include "study/validity_input.hpp"
 
 namespace ream::study {
 using nlohmann::json;
@@ -20,12 +21,6 @@ Error unknown_participant(const std::string& id, const std::string& code) {
 /// Without all that tells participants apart.
 Participant only_code(const Participant& participant) {
   return {participant.code, "", 0, std::nullopt, participant.has_account, ""};
-}
-
-/// Who never touched bone has not done what the session was for.
-bool has_cut(const json& metrics) {
-  const auto contact = metrics.find("contact_time_s");
-  return contact != metrics.end() && contact->is_number() && contact->get<double>() > 0.0;
 }
 
 }  // namespace
@@ -94,24 +89,42 @@ void StudyService::withdraw(const std::string& id, const std::string& code) {
   table_.remove_participant(id, code);
 }
 
+std::vector<SessionRating> StudyService::ratings_of(const std::string& id) const {
+  std::vector<SessionRating> ratings;
+  for (const store::RatingRow& row : ratings_.ratings(id))
+    ratings.push_back({row.rater, row.session, parse_json(row.answers)});
+  return ratings;
+}
+
 StudyExport StudyService::everything(const Study& study) const {
   std::vector<Participant> all;
   for (const store::ParticipantRow& row : table_.participants(study.id)) all.push_back(participant_of(row));
-  std::vector<SessionRating> ratings;
-  for (const store::RatingRow& row : ratings_.ratings(study.id))
-    ratings.push_back({row.rater, row.session, parse_json(row.answers)});
   return export_of(
       study, all, dependencies_->sessions(study.id),
-      [this](const std::string& id) { return dependencies_->metrics(id); }, ratings);
+      [this](const std::string& id) { return dependencies_->metrics(id); }, ratings_of(study.id));
+}
+
+void StudyService::require_export(const net::Caller& caller, const Study& study) const {
+  if (study.open && !access::is_operator(caller.role))
+    throw Error(ErrorKind::conflict, "study '" + study.id +
+                                         "' is open; close it first, for who scores must not know who is how "
+                                         "experienced");
 }
 
 StudyExport StudyService::export_all(const net::Caller& caller, const std::string& id) const {
   const Study study = known(id);
-  if (study.open && !access::is_operator(caller.role))
-    throw Error(ErrorKind::conflict, "study '" + id +
-                                         "' is open; close it first, for who scores must not know who is how "
-                                         "experienced");
+  require_export(caller, study);
   return everything(study);
+}
+
+ValidityInput StudyService::validity_input(const net::Caller& caller, const std::string& id) const {
+  const Study study = known(id);
+  require_export(caller, study);
+  std::vector<Participant> all;
+  for (const store::ParticipantRow& row : table_.participants(id)) all.push_back(participant_of(row));
+  return validity_input_of(
+      study, all, dependencies_->sessions(id),
+      [this](const std::string& session) { return dependencies_->metrics(session); }, ratings_of(id));
 }
 
 json StudyService::codebook(const std::string& id) const {
@@ -154,7 +167,7 @@ std::optional<NextSession> StudyService::next(const Study& study, const std::str
   std::vector<DoneSession> done;
   const std::vector<session::SessionRecord> all = dependencies_->sessions(study.id);
   for (const session::SessionRecord* session : sessions_of(code, all))
-    if (carried_out(*session) && has_cut(dependencies_->metrics(session->request.id)))
+    if (carried_out(*session) && touched_bone(dependencies_->metrics(session->request.id)))
       done.push_back({phase_from(session->request.phase), day_of(session->request.created_utc)});
   return next_session(*design, *arm, done);
 }

@@ -11,6 +11,7 @@
 #include "store/study_table.hpp"
 #include "study/blinding.hpp"
 #include "study/study_export.hpp"
+#include "study/validity_report.hpp"
 
 namespace ream::study {
 
@@ -97,6 +98,8 @@ class StudyService {
 
   /// For operators; for others once the study is closed.
   StudyExport export_all(const net::Caller& caller, const std::string& id) const;
+  /// What of the study shows whether scores mean anything; who may have it as export_all().
+  ValidityInput validity_input(const net::Caller& caller, const std::string& id) const;
   /// What the columns of the export mean.
   nlohmann::json codebook(const std::string& id) const;
 
@@ -111,6 +114,8 @@ class StudyService {
  private:
   Study known(const std::string& id) const;
   Study open_one(const std::string& id) const;
+  void require_export(const net::Caller& caller, const Study& study) const;
+  std::vector<SessionRating> ratings_of(const std::string& id) const;
   StudyExport everything(const Study& study) const;
   Participant add_participant(const Study& study, const NewParticipant& wanted,
                               const std::optional<store::PersonRow>& person);

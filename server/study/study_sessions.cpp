@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "core/new_id.hpp"
 
@@ -21,6 +22,11 @@ int64_t day_of(const std::string& utc) {
 std::string date_text(int64_t days_since_1970) {
   const std::chrono::sys_days day{std::chrono::days(days_since_1970)};
   return utc_text(std::chrono::system_clock::to_time_t(day)).substr(0, 10);
+}
+
+bool touched_bone(const nlohmann::json& metrics) {
+  const auto contact = metrics.find("contact_time_s");
+  return contact != metrics.end() && contact->is_number() && contact->get<double>() > 0.0;
 }
 
 std::vector<const session::SessionRecord*> sessions_of(const std::string& code,

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,10 @@ inline bool carried_out(const session::SessionRecord& session) {
   const SessionState state = session.status.state;
   return (state == SessionState::finished || state == SessionState::stopped) && !given_up(session);
 }
+
+/// Whether the reamer touched bone, by what metrics.json says: who never did has not done what the session
+/// was for.
+bool touched_bone(const nlohmann::json& metrics);
 
 /// Those of one participant, oldest first.
 std::vector<const session::SessionRecord*> sessions_of(const std::string& code,

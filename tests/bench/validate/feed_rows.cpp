@@ -3,9 +3,9 @@
 
 #include "bench/text_table.hpp"
 #include "bench/validate/parallel.hpp"
-#include "bench/validate/statistics.hpp"
 #include "bench/validate/steady_reaming.hpp"
 #include "bench/validate/validate_parts.hpp"
+#include "statistics/regression.hpp"
 
 namespace ream::bench {
 namespace {
@@ -58,8 +58,8 @@ std::vector<Row> rows_of_specimens(const PublishedBone& bone, const Feeds& feeds
   return rows;
 }
 
-void add_regressions(const PublishedBone& bone, const Regression& law, const Regression& specimens_,
-                     std::vector<Row>& rows) {
+void add_regressions(const PublishedBone& bone, const statistics::Regression& law,
+                     const statistics::Regression& specimens_, std::vector<Row>& rows) {
   const auto row = [&](const char* what, double ours, double theirs) {
     rows.push_back(
         {"validate", name_of(bone, what), percent_off(ours, theirs), 0.0, "%", regression_goal_percent});
@@ -70,8 +70,9 @@ void add_regressions(const PublishedBone& bone, const Regression& law, const Reg
   row(" with specimen factors: R2, off the published", specimens_.r_squared, bone.r_squared);
 }
 
-void print_tables(const PublishedBone& bone, const Feeds& feeds, const Regression& law,
-                  const Regression& ours, const Regression& theirs, std::ostream* out) {
+void print_tables(const PublishedBone& bone, const Feeds& feeds, const statistics::Regression& law,
+                  const statistics::Regression& ours, const statistics::Regression& theirs,
+                  std::ostream* out) {
   TextTable table;
   table.title = "Table 5.1, " + std::string(bone.name) + ": feed rate at 52 N, mm/s";
   table.corner = "specimen";
@@ -88,7 +89,7 @@ void print_tables(const PublishedBone& bone, const Feeds& feeds, const Regressio
   lines.title = "Regression of feed on density, " + std::string(bone.name);
   lines.corner = "over the six";
   lines.columns = {"slope", "intercept", "rho", "R2", "p"};
-  const auto line = [&](const char* label, const Regression& r) {
+  const auto line = [&](const char* label, const statistics::Regression& r) {
     lines.lines.push_back({label, {r.slope, r.intercept, r.rho, r.r_squared, r.p}});
   };
   line("ours, law alone", law);
@@ -117,7 +118,7 @@ void print_left_out(const PublishedBone& bone, const Feeds& feeds, std::ostream*
       feed.push_back(bone.specimens[other].feed_mm_s);
     }
     const Specimen& left_out = bone.specimens[s];
-    const Interval predicted = prediction_95(density, feed, left_out.density_g_cc);
+    const statistics::Prediction predicted = statistics::prediction_95(density, feed, left_out.density_g_cc);
     table.lines.push_back({std::to_string(s + 1),
                            {left_out.density_g_cc, left_out.feed_mm_s, predicted.middle, predicted.low,
                             predicted.high, feeds.of_law[s][reference_thrust]}});
@@ -126,7 +127,7 @@ void print_left_out(const PublishedBone& bone, const Feeds& feeds, std::ostream*
 }
 
 /// Figure 5.4 or 5.5.
-void plot(const PublishedBone& bone, const Feeds& feeds, const Regression& ours, Plots& plots) {
+void plot(const PublishedBone& bone, const Feeds& feeds, const statistics::Regression& ours, Plots& plots) {
   const std::string name = "fig-5-" + std::to_string(bone.density_figure);
   std::vector<std::vector<double>> rows;
   for (size_t s = 0; s < specimens; ++s)
@@ -161,11 +162,11 @@ std::vector<Row> feed_rows(const Options& options, Plots& plots) {
       theirs[s] = bone->specimens[s].feed_mm_s;
       law_alone[s] = feeds.of_law[s][reference_thrust];
     }
-    const Regression of_law = regression(density, law_alone);
-    const Regression of_specimens = regression(density, feeds.of_specimen);
+    const statistics::Regression of_law = statistics::regression(density, law_alone);
+    const statistics::Regression of_specimens = statistics::regression(density, feeds.of_specimen);
     for (Row& row : rows_of_specimens(*bone, feeds)) rows.push_back(std::move(row));
     add_regressions(*bone, of_law, of_specimens, rows);
-    print_tables(*bone, feeds, of_law, of_specimens, regression(density, theirs), options.tables);
+    print_tables(*bone, feeds, of_law, of_specimens, statistics::regression(density, theirs), options.tables);
     print_left_out(*bone, feeds, options.tables);
     plot(*bone, feeds, of_specimens, plots);
   }

@@ -1,8 +1,8 @@
 #include "bench/validate/protocol.hpp"
 
-#include "bench/validate/statistics.hpp"
 #include "bench/validate/steady_reaming.hpp"
 #include "core/clock.hpp"
+#include "statistics/sample.hpp"
 
 namespace ream::bench {
 namespace {
@@ -61,7 +61,7 @@ Phase phase_of(const sim::Model& model, const std::vector<record::TickReport>& r
     if (held_from) held_n.push_back(tick.thrust_n);
   }
   if (!held_from || held_n.size() < 2) return phase;
-  phase.held_thrust_n = mean(held_n);
+  phase.held_thrust_n = statistics::mean_of(held_n);
   phase.held_feed_mm_s = (phase.ticks.back().advance_mm - held_from->advance_mm) /
                          (static_cast<double>(held_n.size() - 1) * tick_s);
   phase.stiffness_n_mm = (last->thrust_n - first->thrust_n) / (last->advance_mm - first->advance_mm);

@@ -5,9 +5,9 @@
 #include "bench/text_table.hpp"
 #include "bench/validate/parallel.hpp"
 #include "bench/validate/protocol.hpp"
-#include "bench/validate/statistics.hpp"
 #include "bench/validate/validate_parts.hpp"
 #include "core/clock.hpp"
+#include "statistics/sample.hpp"
 
 namespace ream::bench {
 namespace {
@@ -34,12 +34,13 @@ std::vector<std::vector<double>> curves(const PublishedBone& bone, const Phases&
       advance[s] = phases[s].ticks[i].advance_mm;
     }
     const double t_s = static_cast<double>(i) * tick_s;
-    const bool held = mean(thrust) > 0.999 * published_thrust_n;
+    const bool held = statistics::mean_of(thrust) > 0.999 * published_thrust_n;
     if (held && std::isnan(held_from_mm)) {
       held_since_s = t_s;
-      held_from_mm = mean(advance);
+      held_from_mm = statistics::mean_of(advance);
     }
-    rows.push_back({t_s, mean(thrust), deviation(thrust), mean(advance), deviation(advance),
+    rows.push_back({t_s, statistics::mean_of(thrust), statistics::spread_of(thrust).sd,
+                    statistics::mean_of(advance), statistics::spread_of(advance).sd,
                     held ? bone.thrust_n.mean : nothing,
                     held_from_mm + bone.feed_mm_s.mean * (t_s - held_since_s)});
   }
@@ -88,10 +89,13 @@ std::vector<Row> rows_of(const PublishedBone& bone, const Phases& phases, const 
   stiffness.print(options.tables, 1);
   const std::string name = std::string("robot protocol, ") + bone.name;
   return {
-      {"validate", name + ", held thrust, mean of six", mean(thrust), bone.thrust_n.mean, "N", 0.0},
-      {"validate", name + ", held thrust, deviation", deviation(thrust), bone.thrust_n.deviation, "N", 0.0},
-      {"validate", name + ", feed, mean of six", mean(feed), bone.feed_mm_s.mean, "mm/s", 0.0},
-      {"validate", name + ", feed, deviation", deviation(feed), bone.feed_mm_s.deviation, "mm/s", 0.0}};
+      {"validate", name + ", held thrust, mean of six", statistics::mean_of(thrust), bone.thrust_n.mean, "N",
+       0.0},
+      {"validate", name + ", held thrust, deviation", statistics::spread_of(thrust).sd,
+       bone.thrust_n.deviation, "N", 0.0},
+      {"validate", name + ", feed, mean of six", statistics::mean_of(feed), bone.feed_mm_s.mean, "mm/s", 0.0},
+      {"validate", name + ", feed, deviation", statistics::spread_of(feed).sd, bone.feed_mm_s.deviation,
+       "mm/s", 0.0}};
 }
 
 }  // namespace

@@ -3,11 +3,11 @@
 
 #include "bench/text_table.hpp"
 #include "bench/validate/signal.hpp"
-#include "bench/validate/statistics.hpp"
 #include "bench/validate/validate_parts.hpp"
 #include "core/clock.hpp"
 #include "core/units.hpp"
 #include "force/vibration/vibration_player.hpp"
+#include "statistics/sample.hpp"
 
 namespace ream::bench {
 namespace {
@@ -120,10 +120,11 @@ std::vector<Row> vibration_rows(const Options& options, Plots& plots) {
     rows.push_back({"validate", name + "g_rms", g_rms, theirs.mean_g_rms.mean, "g", 0.0});
     rows.push_back({"validate", name + "g_rms off the published", percent_off(g_rms, theirs.mean_g_rms.mean),
                     0.0, "%", strength_goal_percent});
-    rows.push_back(
-        {"validate", name + "peak to peak of 5 s, mean", mean(windows), theirs.mean_peak_g.mean, "g", 0.0});
+    rows.push_back({"validate", name + "peak to peak of 5 s, mean", statistics::mean_of(windows),
+                    theirs.mean_peak_g.mean, "g", 0.0});
     rows.push_back({"validate", name + "peak to peak of 5 s, mean off the published",
-                    percent_off(mean(windows), theirs.mean_peak_g.mean), 0.0, "%", strength_goal_percent});
+                    percent_off(statistics::mean_of(windows), theirs.mean_peak_g.mean), 0.0, "%",
+                    strength_goal_percent});
     rows.push_back({"validate", name + "peak to peak of 5 s, farthest off, in published deviations",
                     worst_window(theirs, windows), 0.0, "", peak_goal_deviations});
     rows.push_back({"validate", name + "strongest frequency over those around it",

@@ -24,14 +24,14 @@ const Rooms& drawn_arrows() {
       {"api", {"study", "workup"}},
       {"workup", {"jobs"}},
       {"reader", {"ct", "record", "store"}},
-      {"study", {"session", "access"}},
+      {"study", {"session", "access", "statistics"}},
       {"jobs", {"session"}},
       {"session", {"sim", "openigtlink", "report", "ct", "render", "store", "net"}},
       {"sim", {"collide", "force", "record", "case"}},
       {"collide", {"shell"}},
       {"stream", {"surface"}},
       {"openigtlink", {"stream"}},
-      {"score", {"record", "surface", "render"}},
+      {"score", {"record", "surface", "render", "statistics"}},
       {"report", {"score"}},
       {"ct", {"case", "isolation"}},
       {"fe", {"case"}},
@@ -50,6 +50,7 @@ const Rooms& drawn_arrows() {
       {"store", {"core"}},
       {"net", {"core"}},
       {"isolation", {"core"}},
+      {"statistics", {"core"}},
       {"core", {}},
   };
   return arrows;
@@ -65,6 +66,7 @@ const std::vector<Library>& single_room_libraries() {
   static const std::vector<Library> libraries{
       {"OpenCL", std::regex("(CL|OpenCL)/.*"), "gpu"},
       {"Beast and Asio", std::regex("boost/(beast|asio)(/|\\.).*"), "net"},
+      {"Boost.Math", std::regex("boost/math(/|\\.).*"), "statistics"},
       {"OpenSSL", std::regex("openssl/.*"), "net"},
       {"ITK", std::regex("(itk|vnl/|gdcm).*"), "ct, reader"},
       {"assimp", std::regex("assimp/.*"), "geometry, reader"},

@@ -18,8 +18,8 @@ const std::map<std::string, std::set<std::string>>& allowed_rooms();
 /// server/ that are no room; kernels that include anything outside kernels/.
 std::vector<std::string> arrow_violations(const std::filesystem::path& root);
 
-/// Headers of OpenCL, Beast and Asio, ITK, assimp, SOCI, OSMesa and NATS outside the one room that may use
-/// them.
+/// Headers of OpenCL, Beast and Asio, Boost.Math, ITK, assimp, SOCI, OSMesa and NATS outside the one room
+/// that may use them.
 std::vector<std::string> library_violations(const std::filesystem::path& root);
 
 /// Headers and sources (kernels too) with more lines than `server_limits` has.
@@ -68,8 +68,8 @@ inline constexpr Limits server_limits{.header_lines = 250,
                                       .folder_cycles = 0,
                                       .single_function_headers = 15,
                                       .private_headers = 22,
-                                      .files = 892,
-                                      .lines = 83200,
+                                      .files = 928,
+                                      .lines = 85850,
                                       .min_median_file_lines = 70,
                                       .max_median_file_lines = 110};
 

@@ -8,6 +8,7 @@ import { ExportPanel, StudyStatePanel } from '../panels/study/study_state_panel'
 import { ParticipantTable } from '../panels/study/participant_table';
 import { RaterPanel } from '../panels/study/rater_panel';
 import { TrainPanel } from '../panels/study/train_panel';
+import { ValidityPanel } from '../panels/study/validity_panel';
 import { Remote } from '../state/remote';
 import { addressOfRoute } from '../state/route';
 import { studyText } from '../text/study_text';
@@ -118,6 +119,7 @@ function Staff({ api, study, studies, participants }: StaffParts) {
       <RaterPanel {...{ api, study }} />
       {study.state === 'open' && <EnrolPanel {...{ api, study, participants }} />}
       <ExportPanel {...{ api, study, studies }} />
+      <ValidityPanel key={`${study.id} ${study.state}`} {...{ api, study }} />
     </>
   );
 }

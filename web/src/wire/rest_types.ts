@@ -65,6 +65,7 @@ export type {
   Upload,
   User,
   UserChange,
+  ValidityReport,
   Verdict,
 } from './generated/openapi';
 

@@ -9,9 +9,13 @@ import type {
   Rater,
   Replay,
   Study,
+  ValidityReport,
 } from './rest_types';
 
 export type ExportTable = 'sessions' | 'answers' | 'groups' | 'ratings';
+
+/** Files of the validity report: its numbers, and what R computes them from. */
+export type ValidityFile = 'numbers' | 'sessions' | 'ratings' | 'script';
 
 /** Calls of the REST interface about studies; `base` is the server's origin. */
 export class StudyApi {
@@ -84,6 +88,15 @@ export class StudyApi {
   }
   replayForRating(id: string, key: string): Promise<Replay> {
     return this.rest.json('post', '/api/v1/studies/{id}/rating-queue/{key}/replay', { path: { id, key } });
+  }
+
+  async validity(id: string): Promise<ValidityReport> {
+    return (
+      await this.rest.request('get', '/api/v1/studies/{id}/validity', { path: { id } })
+    ).json() as Promise<ValidityReport>;
+  }
+  async validityFile(id: string, form: ValidityFile): Promise<Blob> {
+    return (await this.rest.request('get', '/api/v1/studies/{id}/validity', { path: { id }, query: { form } })).blob();
   }
 
   /** A table for statistics, or all of them as JSON. */
