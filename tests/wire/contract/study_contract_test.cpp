@@ -11,7 +11,10 @@ class StudyContractTest : public AccessTest {
   void SetUp() override {
     start();
     anna = token_of(add_user("anna", Role::operator_));
-    ines = token_of(add_user("ines", Role::instructor));
+    ines_id = add_user("ines", Role::instructor);
+    ines = token_of(ines_id);
+    ivo_id = add_user("ivo", Role::instructor);
+    ivo = token_of(ivo_id);
     tom_id = add_user("tom", Role::trainee);
     tom = token_of(tom_id);
     ben = token_of(add_user("ben", Role::trainee));
@@ -115,6 +118,81 @@ class StudyContractTest : public AccessTest {
     expect("GET", participant, person, 404, ben);
   }
 
+  /// A session of Tom's in the study that has ended; its id.
+  std::string trained() {
+    const std::string sessions = "/api/v1/sessions";
+    const std::string session = made(tom, sessions, json{{"study", id}}.dump()).at("id");
+    EXPECT_EQ(request("POST", sessions + "/" + session + "/start", tom).status, 200);
+    EXPECT_EQ(request("POST", sessions + "/" + session + "/stop", tom).status, 200);
+    return session;
+  }
+
+  void naming_raters() {
+    const std::string pattern = one_study + "/raters", here = at + "/raters";
+    const std::string good = json{{"user_id", ivo_id}}.dump();
+    refused_bodies("POST", pattern, here, anna, good, "{}");
+    expect("POST", pattern, here, 403, ines, good);
+    expect("POST", pattern, here, 404, anna, R"({"user_id": "nobody"})");
+    const HttpReply reply = request("POST", here, anna, good);
+    expect_as_described("POST", pattern, 201, reply);
+    expect("POST", pattern, here, 409, anna, good);
+    expect("GET", pattern, here, 200, ines);
+    expect("GET", pattern, here, 401);
+    expect("GET", pattern, here, 403, tom);
+    expect("GET", pattern, studies + "/nothing/raters", 404, ines);
+    const std::string one = pattern + "/{label}";
+    made(anna, here, json{{"user_id", ines_id}}.dump());
+    expect("DELETE", one, here + "/R2", 401);
+    expect("DELETE", one, here + "/R2", 403, ines);
+    expect("DELETE", one, here + "/R2", 204, anna);
+    expect("DELETE", one, here + "/R2", 404, anna);
+  }
+
+  void rating() {
+    naming_raters();
+    const std::string session = trained();
+    const std::string pattern = one_study + "/rating-queue", here = at + "/rating-queue";
+    expect("GET", pattern, here, 200, ivo);
+    expect("GET", pattern, here, 401);
+    expect("GET", pattern, here, 403, tom);
+    expect("GET", pattern, here, 404, ines);
+    const json queue = json::parse(request("GET", here, ivo).body).at("queue");
+    ASSERT_EQ(queue.size(), 1u);
+    const std::string one = pattern + "/{key}", key = here + "/" + queue[0].at("key").get<std::string>();
+    rating_key = key;
+    json answers = json::object();
+    for (const auto& item : study::default_rating_form().items)
+      if (item.required) answers[item.id] = item.options.empty() ? json(3) : json(item.options[0].id);
+    refused_bodies("PUT", one, key, ivo, answers.dump(), R"({"respect_for_bone": 6})");
+    expect("PUT", one, key, 403, tom, answers.dump());
+    expect("PUT", one, here + "/0123456789abcdef", 404, ivo, answers.dump());
+    expect("PUT", one, key, 200, ivo, answers.dump());
+    rating_answers = answers.dump();
+    const std::string replay = one + "/replay";
+    expect("POST", replay, key + "/replay", 201, ivo);
+    expect("POST", replay, key + "/replay", 401);
+    expect("POST", replay, key + "/replay", 403, tom);
+    expect("POST", replay, here + "/0123456789abcdef/replay", 404, ivo);
+    // What is rated is seen in the queue only.
+    const std::string path = "/api/v1/sessions/" + session;
+    for (const char* part : {"", "/score", "/metrics", "/replay"})
+      EXPECT_EQ(request(part == std::string("/replay") ? "POST" : "GET", path + part, ivo).status, 403)
+          << part;
+    EXPECT_EQ(request("GET", path, ines).status, 200);
+    EXPECT_EQ(request("GET", "/api/v1/sessions", ivo).body.find(code), std::string::npos);
+  }
+
+  void validity() {
+    const std::string pattern = one_study + "/validity", here = at + "/validity";
+    for (const char* form : {"", "?form=numbers", "?form=sessions", "?form=ratings", "?form=script"})
+      expect("GET", pattern, here + form, 200, anna);
+    expect("GET", pattern, here, 401);
+    expect("GET", pattern, here, 403, tom);
+    expect("GET", pattern, studies + "/nothing/validity", 404, anna);
+    expect("GET", pattern, here, 409, ines);
+    expect("GET", pattern, here + "?form=xls", 422, anna);
+  }
+
   void exporting() {
     const std::string pattern = one_study + "/export", here = at + "/export";
     expect("GET", pattern, here, 200, anna);
@@ -152,6 +230,7 @@ class StudyContractTest : public AccessTest {
     expect_step("close", 409, ines);
     expect("PUT", participant + "/answers", at + "/participants/" + code + "/answers", 409, tom,
            all_answers().dump());
+    expect("PUT", one_study + "/rating-queue/{key}", rating_key, 409, ivo, rating_answers);
     expect_step("reopen", 200, ines);
     expect_step("close", 200, ines);
     expect_step("unblind", 403, ines);
@@ -180,14 +259,18 @@ class StudyContractTest : public AccessTest {
       const std::string method = operation.substr(0, operation.find(' '));
       const std::string pattern = operation.substr(operation.find(' ') + 1);
       std::string path = pattern;
-      for (const auto& [name, value] : {std::pair("{id}", "s1"), {"{code}", "K7-F3M"}})
+      for (const auto& [name, value] :
+           {std::pair("{id}", "s1"), {"{code}", "K7-F3M"}, {"{label}", "R1"}, {"{key}", "0123456789abcdef"}})
         if (const size_t place = path.find(name); place != std::string::npos)
           path.replace(place, std::string(name).size(), value);
       const bool joins = path.ends_with("/join");
       const std::string body = path == studies || path == studies + "/s1" ? wanted
-                               : joins                      ? R"({"join_code": "x", "experience": "novice"})"
-                               : path.ends_with("/answers") ? "{}"
-                                                            : R"({"experience": "novice"})";
+                               : joins                     ? R"({"join_code": "x", "experience": "novice"})"
+                               : path.ends_with("/raters") ? R"({"user_id": "u1"})"
+                               : path.ends_with("/replay") ? ""
+                               : path.ends_with("/answers") || path.find("rating-queue") != std::string::npos
+                                   ? "{}"
+                                   : R"({"experience": "novice"})";
       expect(method, pattern, path, 503, {}, method == "POST" || method == "PUT" ? body : "");
     }
   }
@@ -200,8 +283,8 @@ class StudyContractTest : public AccessTest {
   const std::string studies = "/api/v1/studies", one_study = studies + "/{id}",
                     participant = one_study + "/participants/{code}",
                     wanted = R"({"name": "First year", "cases": ["planned"], "device": "browser"})";
-  Sent anna, ines, tom, ben;
-  std::string tom_id, id, at, join_code, code, guest_code;
+  Sent anna, ines, ivo, tom, ben;
+  std::string rating_key, rating_answers, tom_id, ines_id, ivo_id, id, at, join_code, code, guest_code;
 };
 
 TEST_F(StudyContractTest, EveryDescribedReplyIsGivenAsDescribed) {
@@ -209,6 +292,8 @@ TEST_F(StudyContractTest, EveryDescribedReplyIsGivenAsDescribed) {
   changing();
   taking_part();
   answering();
+  rating();
+  validity();
   exporting();
   ending();
   forgetting();

@@ -96,7 +96,7 @@ interface QueueParts {
 function QueueBar({ list, at, onChoose }: QueueParts) {
   const rated = list.filter((one) => one.answers !== null).length;
   return (
-    <div class="content-head">
+    <div class="content-head content-form">
       <label>
         <span class="visually-hidden">{studyText.ratingQueue}</span>
         <select

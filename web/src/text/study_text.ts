@@ -59,8 +59,7 @@ export const studyText = {
   retentionDays: 'Retention after days',
   testTheatre: 'In theatre mode',
   arms: 'Arms',
-  armsHint:
-    'Participants come to an arm at random. Who trains and who scores does not see it until the study is closed.',
+  armsHint: 'Participants come to an arm at random. Only operators see it until the study is closed.',
   armName: 'Arm',
   armNumber: (number: number) => `Arm ${number}`,
   trainingSessions: 'Training sessions',

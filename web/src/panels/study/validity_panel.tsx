@@ -1,6 +1,7 @@
 import { useSignal } from '@preact/signals';
 
 import { type PartName, partNames, tableOf } from '../../state/study/validity_table';
+import { sentence } from '../../text/format';
 import { validityText } from '../../text/validity_text';
 import { messageOf } from '../../wire/rest';
 import type { Study, ValidityReport } from '../../wire/rest_types';
@@ -48,31 +49,39 @@ export function ValidityPanel({ api, study }: Parts) {
       </div>
       {allowed && <p class="soft">{validityText.files}</p>}
       {problem.value !== null && <Message kind="bad">{problem.value}</Message>}
-      {report.value !== null && <Report report={report.value} />}
+      {report.value !== null && <Report report={report.value} names={itemNames(study)} />}
     </section>
   );
 }
 
 const fileName = (file: ValidityFile) => (file === 'numbers' ? 'numbers.csv' : validityText.file[file]);
 
-function Report({ report }: { report: ValidityReport }) {
+/** What raters are asked, by item. */
+const itemNames = (study: Study) => new Map(study.rating_form?.items.map((item) => [item.id, item.words]));
+
+interface ReportParts {
+  report: ValidityReport;
+  names: ReadonlyMap<string, string>;
+}
+
+function Report({ report, names }: ReportParts) {
   const shown = partNames.filter((part) => report[part].length > 0);
   return (
     <div data-testid="validity-report">
       {report.notes.map((note) => (
         <p key={note} class="soft">
-          {note}
+          {sentence(note)}
         </p>
       ))}
       {shown.length === 0 && <p>{validityText.empty}</p>}
       {shown.map((part) => (
-        <Part key={part} report={report} part={part} />
+        <Part key={part} {...{ report, names, part }} />
       ))}
     </div>
   );
 }
 
-function Part({ report, part }: { report: ValidityReport; part: PartName }) {
+function Part({ report, names, part }: ReportParts & { part: PartName }) {
   const { head, rows } = tableOf(report, part);
   const abouts = rows.some((row) => row.about !== '');
   const notes = rows.some((row) => row.notes !== '');
@@ -96,14 +105,14 @@ function Part({ report, part }: { report: ValidityReport; part: PartName }) {
         <tbody>
           {rows.map((row) => (
             <tr key={`${row.name} ${row.about}`}>
-              <th scope="row">{row.name}</th>
+              <td>{names.get(row.name) ?? row.name}</td>
               {abouts && <td>{row.about}</td>}
               {row.cells.map((cell, i) => (
                 <td key={i} class="number">
                   {cell}
                 </td>
               ))}
-              {notes && <td class="soft">{row.notes}</td>}
+              {notes && <td class="soft">{sentence(row.notes)}</td>}
             </tr>
           ))}
         </tbody>
