@@ -1,0 +1,59 @@
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "statistics/intraclass.hpp"
+#include "study/validity_report.hpp"
+
+namespace ream::study {
+
+/// Error invalid_input as validity_report() says.
+void check_validity_input(const ValidityInput& input);
+
+/// The sessions with the mean of the raters' totals among their measures, where a rater has rated all scale
+/// items.
+std::vector<RatedSession> with_raters_total(const ValidityInput& input);
+
+/// Names of all measures, sorted.
+std::vector<std::string> measures_of(const std::vector<RatedSession>& sessions);
+
+/// A measure's value in a session, if there is one.
+std::optional<double> measure_in(const RatedSession& session, const std::string& measure);
+
+/// Of each participant (by code) the mean over those sessions for which `value` gives one.
+template <typename Value>
+std::map<std::string, double> person_means(const std::vector<RatedSession>& sessions, const Value& value) {
+  std::map<std::string, std::pair<double, size_t>> sums;
+  for (const RatedSession& session : sessions)
+    if (const std::optional<double> found = value(session)) {
+      sums[session.participant].first += *found;
+      ++sums[session.participant].second;
+    }
+  std::map<std::string, double> means;
+  for (const auto& [person, sum] : sums) means[person] = sum.first / static_cast<double>(sum.second);
+  return means;
+}
+
+/// What raters say of sessions, a row for each session that anybody rated so.
+class RatingTable {
+ public:
+  /// Of one item. Raters and sessions are those of the table of all items of its kind.
+  static RatingTable of_item(const ValidityInput& input, const RatedItem& item);
+  /// Of the sum of all scale items; empty where a rater has left an item out.
+  static RatingTable of_total(const ValidityInput& input);
+
+  const std::vector<statistics::RatingRow>& rows() const { return rows_; }
+  const std::vector<std::string>& sessions() const { return sessions_; }
+  size_t raters() const { return raters_.size(); }
+
+ private:
+  RatingTable(const ValidityInput& input, ItemKind kind);
+  std::optional<double>& cell(const Rating& rating);
+
+  std::vector<std::string> raters_, sessions_;  ///< sorted
+  std::vector<statistics::RatingRow> rows_;
+};
+
+}  // namespace ream::study
