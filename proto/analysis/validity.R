@@ -166,12 +166,13 @@ measures <- measures[sapply(measures, function(measure) any(!is.na(sessions[[mea
 
 # ---- persons
 
-# One value a participant: the mean of those sessions that are asked for.
+# One value a participant: the mean of those sessions that are asked for. To 12 digits, so that means of the same
+# numbers in another order are equal, and so are ties among them.
 person_means <- function(measure, which) {
   kept <- which & !is.na(sessions[[measure]])
   if (!any(kept)) return(setNames(numeric(0), character(0)))
   means <- tapply(sessions[[measure]][kept], sessions$participant[kept], mean)
-  setNames(as.vector(means), names(means))
+  setNames(signif(as.vector(means), 12), names(means))
 }
 
 # The non-centrality at which t is reached with chance p.

@@ -59,6 +59,7 @@ std::vector<double> shares_below(const std::vector<size_t>& own, const std::vect
     below += other[i];
   }
   std::vector<double> shares;
+  shares.reserve(own.size());
   for (const size_t place : own)
     shares.push_back(0.5 * static_cast<double>(twice_below[place]) / static_cast<double>(below));
   return shares;

@@ -1,6 +1,8 @@
 #include "study/validity_data.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <set>
 #include <tuple>
@@ -80,6 +82,14 @@ std::optional<double> measure_in(const RatedSession& session, const std::string&
   const auto found = session.measures.find(measure);
   if (found == session.measures.end() || !std::isfinite(found->second)) return std::nullopt;
   return found->second;
+}
+
+double to_twelve_digits(double value) {
+  std::array<char, 32> text;
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific, 11).ptr;
+  std::from_chars(text.data(), end, value);
+  return value;
 }
 
 std::vector<RatedSession> with_raters_total(const ValidityInput& input) {

@@ -22,7 +22,11 @@ std::vector<std::string> measures_of(const std::vector<RatedSession>& sessions);
 /// A measure's value in a session, if there is one.
 std::optional<double> measure_in(const RatedSession& session, const std::string& measure);
 
-/// Of each participant (by code) the mean over those sessions for which `value` gives one.
+/// The value to 12 significant digits. Means of the same numbers in another order are then equal, and so are
+/// ties among them.
+double to_twelve_digits(double value);
+
+/// Of each participant (by code) the mean over those sessions for which `value` gives one, to 12 digits.
 template <typename Value>
 std::map<std::string, double> person_means(const std::vector<RatedSession>& sessions, const Value& value) {
   std::map<std::string, std::pair<double, size_t>> sums;
@@ -32,7 +36,8 @@ std::map<std::string, double> person_means(const std::vector<RatedSession>& sess
       ++sums[session.participant].second;
     }
   std::map<std::string, double> means;
-  for (const auto& [person, sum] : sums) means[person] = sum.first / static_cast<double>(sum.second);
+  for (const auto& [person, sum] : sums)
+    means[person] = to_twelve_digits(sum.first / static_cast<double>(sum.second));
   return means;
 }
 

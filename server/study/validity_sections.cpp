@@ -24,6 +24,7 @@ double count_of(size_t number) { return static_cast<double>(number); }
 
 std::vector<double> values_of(const std::map<std::string, double>& by_person) {
   std::vector<double> values;
+  values.reserve(by_person.size());
   for (const auto& [person, value] : by_person) values.push_back(value);
   return values;
 }

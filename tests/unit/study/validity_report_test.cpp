@@ -67,6 +67,18 @@ TEST(ValidityReport, WhoIsMeasuredTwiceIsOnePerson) {
   EXPECT_NE(notes_of(line_of(report.benchmarks, "m")).find("has no interval"), std::string::npos);
 }
 
+TEST(ValidityReport, MeansOfTheSameNumbersInAnotherOrderAreEqual) {
+  ASSERT_NE(0.1 + 0.2 + 0.3, 0.3 + 0.2 + 0.1);
+  std::vector<RatedSession> sessions;
+  for (const double value : {0.1, 0.2, 0.3}) sessions.push_back(plain_session("", "A", "", value));
+  for (const double value : {0.3, 0.2, 0.1}) sessions.push_back(plain_session("", "B", "", value));
+  const auto means = person_means(sessions, [](const RatedSession& s) { return measure_in(s, "m"); });
+  EXPECT_EQ(means.at("A"), means.at("B"));
+  EXPECT_EQ(means.at("A"), 0.2);
+  EXPECT_EQ(to_twelve_digits(-123456.7890124999), -123456.789012);
+  EXPECT_EQ(to_twelve_digits(0.0), 0.0);
+}
+
 TEST(ValidityReport, TooFewPersonsAreAnsweredInWordsAndWithoutNumbers) {
   ValidityInput input;
   for (int i = 0; i < 2; ++i)
