@@ -255,6 +255,8 @@ export const caseText = {
   inferiorWord: 'inferior',
   depth: 'Depth',
   implantRadius: 'Radius of the implant',
+  implant: 'Implant',
+  implantUsual: 'not named (pegs of usual size)',
   reamer: 'Reamer',
   reamerText: (name: string, diameter: string, radius: string) => `${name}: ⌀ ${diameter} mm, radius ${radius} mm`,
   reamerFlat: (name: string, diameter: string) => `${name}: ⌀ ${diameter} mm`,
