@@ -57,6 +57,14 @@ constexpr std::string_view eriksson =
     "Eriksson and Albrektsson: 47 degrees for a minute and 56 at once; the lower limits are ours";
 constexpr std::string_view heat_model =
     "of a 1-D model; what of the spindle's power goes into bone, 0.3 to 0.7, is known to 40 %";
+constexpr std::string_view economy =
+    "time and motion: economy of movement, the ideal path length over the actual one; what is ideal is ours";
+constexpr std::string_view economy_checked =
+    "exact to rounding against a second computation on 50 seeded paths; to be compared with experts on the "
+    "same simulator";
+constexpr std::string_view rate_checked =
+    "within 0.1 % of the formula for sines and of a second computation on 50 seeded thrusts; to be compared "
+    "with experts on the same simulator";
 constexpr std::string_view joint_line_ours =
     "engineering judgement: what arthroplasty calls shift of the joint line, along two axes that are named";
 constexpr std::string_view wall_ours =
@@ -277,6 +285,15 @@ constexpr Metric catalogue[] = {
     {"axial_thrust_sd_n", "Thrust, standard deviation", "N", "Standard deviation of the same.",
      "thesis 5.1: a robot keeps 52 N within 4.3 N", published, compare, handling, episode, not_negative,
      only_reported, Better::less},
+    {"thrust_rate_percent_s", "Unevenness of thrust", "%/s",
+     "Root mean square rate at which thrust changes, as a share of the mean thrust, over presses with at "
+     "least "
+     "5 N while the spindle turns in contact: from one mean over 50 ms to the next, without the first and "
+     "the "
+     "last quarter of a second of each press. 0 for a steady thrust.",
+     "Trejos 2014: derivatives of force as measures of skill; the low-pass and the division by the mean are "
+     "ours",
+     published, rate_checked, handling, episode, not_negative, only_reported, Better::less},
     {"axial_thrust_peak_n", "Peak thrust", "N",
      "Greatest thrust over the ticks in contact with the spindle on.", thesis, judgement, exact_sum, handling,
      ticks, any, at_most(104.0, 104.0)},
@@ -338,6 +355,21 @@ constexpr Metric catalogue[] = {
     {"air_spin_time_s", "Turning in the air", "s",
      "Time in which the spindle is on and the reamer touches no bone.", "engineering judgement", judgement,
      exact_sum, handling, ticks, not_negative, only_reported},
+    {"withdrawn_spin_time_s", "Turning after a contact", "s",
+     "Of the time of turning in the air, that after the first contact: between contacts, and after the last.",
+     "engineering judgement", judgement, exact_sum, handling, ticks, not_negative, only_reported,
+     Better::less},
+    {"spindle_starts_in_contact", "Starts on the bone", "",
+     "How often the spindle was started while the reamer touched bone.",
+     "surgeons are taught to start the reamer before it touches bone", judgement, exact_sum, handling, ticks,
+     not_negative, only_reported, Better::less},
+    {"contact_before_spin_s", "Contact before spin", "s",
+     "Time for which a standing reamer had touched bone when it was started there, with any force; breaks of "
+     "up to 0.5 s part no contact. A standing reamer that is taken off the bone before it is started does "
+     "not "
+     "count: that is in 'Pressed on with a standing reamer'.",
+     "surgeons are taught to start the reamer before it touches bone", judgement, exact_sum, handling, ticks,
+     not_negative, only_reported, Better::less},
     {"idle_time_s", "Time between contacts", "s",
      "Time without contact between the first contact and the last.", time_and_motion, published, exact_sum,
      handling, ticks, not_negative, only_reported, Better::less},
@@ -352,6 +384,16 @@ constexpr Metric catalogue[] = {
      published, exact_sum, handling, ticks, not_negative, only_reported, Better::less},
     {"path_out_of_contact_mm", "Path in the air", "mm", "The same while it does not.", time_and_motion,
      published, exact_sum, handling, ticks, not_negative, only_reported, Better::less},
+    {"path_economy_contact_percent", "Economy of movement, in contact", "%",
+     "How much deeper along the planned axis the tool's apex came while it touched bone, which is the "
+     "shortest "
+     "path that the cutting needs, over the path in contact.",
+     economy, published, economy_checked, handling, episode, percent_range, only_reported, Better::more},
+    {"path_economy_percent", "Economy of movement", "%",
+     "The shortest path over the path of the whole session, from first approach to last withdrawal. The "
+     "shortest goes straight from where the apex began to the deepest place at which bone was removed, and "
+     "straight to where it ended.",
+     economy, published, economy_checked, handling, episode, percent_range, only_reported, Better::more},
     {"strokes", "Strokes", "",
      "Movements of the tool's apex at over 1 mm/s for at least 0.2 s, ended by 0.1 s below that.",
      "engineering judgement", judgement, exact_sum, handling, ticks, not_negative, only_reported},
