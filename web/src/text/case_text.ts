@@ -223,6 +223,7 @@ export const caseText = {
   inclination: 'Inclination',
   method3d: '3D, scapular plane',
   methodFriedman: '2D, Friedman',
+  methodTrigonum: '2D, from the trigonum',
   normal: (value: string, source: string) => `Normal ${value} (${source})`,
   normalRange: (low: string, high: string) => `${low} to ${high}`,
   subluxation: 'Subluxation of the head',
