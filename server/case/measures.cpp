@@ -253,6 +253,8 @@ json to_json(const Measures& m) {
   json value = {{"version_3d_deg", degrees_or_null(m.version_3d_rad)},
                 {"inclination_3d_deg", degrees_or_null(m.inclination_3d_rad)},
                 {"version_friedman_deg", degrees_or_null(m.version_friedman_rad)},
+                {"inclination_trigonum_deg", degrees_or_null(m.inclination_friedman_rad)},
+                // The name that it had in the version before.
                 {"inclination_friedman_deg", degrees_or_null(m.inclination_friedman_rad)},
                 {"subluxation_percent", or_null(m.subluxation_percent)},
                 {"subluxation_glenoid_percent", or_null(m.subluxation_glenoid_percent)},

@@ -50,11 +50,11 @@ struct Biconcavity {
 ///
 /// Friedman 2D: version in the axial plane (LPS x, y: every point is projected along z): angle between the
 /// line of the anterior and posterior rim and the perpendicular to the axis from the trigonum to the middle
-/// of that line. Inclination in the upright plane (the oblique coronal image) through the axis from the
-/// trigonum to the middle of the superior-inferior rim line, spanned by LPS z. Both are (angle at the middle
-/// of the rim line from the trigonum to the posterior, or inferior, rim) - 90 degrees. Unchanged by moving
-/// and scaling and by turning about z only: how the patient lay in the scanner decides too, as in Friedman's
-/// slices.
+/// of that line. Friedman defines no inclination: the other one is in the upright plane (a coronal image)
+/// through trigonum and middle of the superior-inferior rim line, spanned by LPS z. Both are (angle at the
+/// middle of the rim line from the trigonum to the posterior, or inferior, rim) - 90 degrees. Unchanged by
+/// moving and scaling and by turning about z only: how the patient lay in the scanner decides too, as in
+/// Friedman's slices.
 struct Measures {
   std::optional<double> version_3d_rad, inclination_3d_rad;
   std::optional<double> version_friedman_rad, inclination_friedman_rad;

@@ -1,5 +1,7 @@
 #include "report/deviation_scale.hpp"
 
+#include <algorithm>
+
 #include "score/deviation.hpp"
 
 namespace ream::report {
@@ -25,6 +27,33 @@ render::VertexColour deviation_colour(int8_t code) {
   for (const DeviationClass& each : deviation_classes())
     if (mm <= each.up_to_mm) return each.colour;
   return bone_colour;
+}
+
+const std::vector<DeviationClass>& wall_classes() {
+  static const std::vector<DeviationClass> classes = {
+      {2.0, {8, 29, 88, 255}, "up to 2 mm (hatched)"}, {5.0, {34, 94, 168, 0}, "2 to 5 mm"},
+      {10.0, {65, 182, 196, 0}, "5 to 10 mm"},         {15.0, {161, 218, 180, 0}, "10 to 15 mm"},
+      {1e9, {255, 255, 204, 0}, "over 15 mm"},
+  };
+  return classes;
+}
+
+std::string wall_classes_in_words() {
+  std::string words;
+  for (const DeviationClass& each : wall_classes()) words += (words.empty() ? "" : ", ") + each.words;
+  return words;
+}
+
+std::vector<render::VertexColour> wall_colours(std::span<const int8_t> codes) {
+  std::vector<render::VertexColour> colours;
+  colours.reserve(codes.size());
+  for (const int8_t code : codes) {
+    const double mm = code * score::wall_step_mm;
+    const auto of = std::find_if(wall_classes().begin(), wall_classes().end(),
+                                 [&](const DeviationClass& each) { return mm <= each.up_to_mm; });
+    colours.push_back(code == score::deviation_unknown ? bone_colour : of->colour);
+  }
+  return colours;
 }
 
 std::vector<render::VertexColour> deviation_colours(std::span<const int8_t> codes) {

@@ -25,4 +25,12 @@ const std::vector<DeviationClass>& deviation_classes();
 render::VertexColour deviation_colour(int8_t code);
 std::vector<render::VertexColour> deviation_colours(std::span<const int8_t> codes);
 
+/// Thickness of a wall, from the thinnest: the darker the thinner, ColorBrewer YlGnBu; the thinnest is
+/// hatched.
+const std::vector<DeviationClass>& wall_classes();
+/// "under 2 mm (hatched), 2 to 5 mm, ...".
+std::string wall_classes_in_words();
+/// Of codes of score::wall_codes; bone's own colour where nothing is known.
+std::vector<render::VertexColour> wall_colours(std::span<const int8_t> codes);
+
 }  // namespace ream::report

@@ -101,13 +101,25 @@ Picture after(const ReamedBone& bone, const Directions& d) {
   return picture;
 }
 
-Picture face_map(const ReamedBone& bone, const std::vector<int8_t>& codes, const Directions& d) {
+Picture painted_face(const ReamedBone& bone, const std::vector<render::VertexColour>& colours,
+                     const Directions& d) {
   const render::Camera camera = camera_from(bone.plan.entry_mm, -d.medial, d.superior, face_half_height_mm);
-  const auto colours = deviation_colours(codes);
   Picture picture;
   picture.image = render::draw({layer_of(bone.after, bone, &colours)}, camera, picture_width, picture_height);
   add_face_labels(picture, camera, d);
+  return picture;
+}
+
+Picture face_map(const ReamedBone& bone, const std::vector<int8_t>& codes, const Directions& d) {
+  Picture picture = painted_face(bone, deviation_colours(codes), d);
   picture.is_map = true;
+  return picture;
+}
+
+Picture wall_map(const ReamedBone& bone, const Directions& d) {
+  Picture picture = painted_face(bone, wall_colours(bone.wall), d);
+  picture.title = "Bone left behind the reamed face";
+  picture.caption = "Along its normal, from dark to light: " + wall_classes_in_words() + ".";
   return picture;
 }
 
@@ -190,6 +202,7 @@ std::vector<Picture> session_pictures(const ReamedBone& bone) {
     pictures.back().title = "Gap to the seated implant";
     pictures.back().caption = "Proud: bone would stand into the implant. Beyond (hatched): a gap behind it.";
   }
+  if (!bone.wall.empty()) pictures.push_back(wall_map(bone, d));
   pictures.push_back(axes_from_below(bone, d));
   pictures.push_back(axes_from_the_front(bone, d));
   return pictures;

@@ -18,6 +18,7 @@ struct ReamedBone {
   std::vector<uint8_t> cut;    ///< of `after`, see score::cut_vertices
   /// Of `after`, see score/deviation.hpp; empty when there is nothing to compare with.
   std::vector<int8_t> from_plan, from_implant;
+  std::vector<int8_t> wall;  ///< see score::wall_codes; empty when nothing of the face was reamed
   Pose world_from_grid;
   case_::Plan plan;
   case_::Side side = case_::Side::right;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "case/measures.hpp"
 #include "case/planning.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -15,8 +14,6 @@ namespace ream::score {
 namespace {
 
 constexpr const char* no_plan = "the case has no plan";
-constexpr const char* no_scapular_frame =
-    "the case lacks one of the landmarks trigonum, inferior angle and glenoid centre";
 constexpr const char* misses_surface = "the achieved axis does not meet the untouched surface near the face";
 constexpr int steps_to_surface = 30;
 constexpr double on_surface_mm = 1e-9;
@@ -25,16 +22,6 @@ constexpr double neutral_version_deg = 7.0;
 
 double angle_deg(const Vec3& a, const Vec3& b) {
   return degrees_from_radians(std::atan2(a.cross(b).norm(), a.dot(b)));
-}
-
-std::optional<case_::ScapularFrame> scapular_frame_of(const Task& task) {
-  const auto& l = task.anatomy.landmarks;
-  if (!l || !l->glenoid_centre_mm || !l->trigonum_mm || !l->inferior_angle_mm) return std::nullopt;
-  try {
-    return case_::scapular_frame(*l->glenoid_centre_mm, *l->trigonum_mm, *l->inferior_angle_mm);
-  } catch (const Error&) {
-    return std::nullopt;
-  }
 }
 
 /// Angles of a face across an axis that points into the bone, degrees.
@@ -105,6 +92,16 @@ void measure_places(const NativeGlenoid& native, const CutLine& line, MetricResu
 }
 
 }  // namespace
+
+std::optional<case_::ScapularFrame> scapular_frame_of(const Task& task) {
+  const auto& l = task.anatomy.landmarks;
+  if (!l || !l->glenoid_centre_mm || !l->trigonum_mm || !l->inferior_angle_mm) return std::nullopt;
+  try {
+    return case_::scapular_frame(*l->glenoid_centre_mm, *l->trigonum_mm, *l->inferior_angle_mm);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
 
 std::optional<double> first_contact_mm(const NativeGlenoid& native) {
   double first = no_surface_mm;

@@ -1,10 +1,17 @@
 #pragma once
 #include <optional>
 
+#include "case/measures.hpp"
 #include "score/component.hpp"
 #include "score/metric_results.hpp"
 
 namespace ream::score {
+
+/// Why what rests on the scapula's frame is missing.
+inline constexpr const char* no_scapular_frame =
+    "the case lacks one of the landmarks trigonum, inferior angle and glenoid centre";
+/// By the case's landmarks; empty when one is missing, or they lie on one line.
+std::optional<case_::ScapularFrame> scapular_frame_of(const Task& task);
 
 /// How deep the reamer's apex is along the planned axis when it first touches the untouched face; empty when
 /// it does not.

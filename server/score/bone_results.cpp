@@ -6,8 +6,10 @@
 #include "core/units.hpp"
 #include "score/alignment.hpp"
 #include "score/depth_gauge.hpp"
+#include "score/joint_line.hpp"
 #include "score/sphere_fit.hpp"
 #include "score/vault_clearance.hpp"
+#include "score/wall_thickness.hpp"
 
 namespace ream::score {
 namespace {
@@ -195,7 +197,9 @@ MetricResults bone_results(const NativeGlenoid& native, const PlannedFace& plann
                          "the component has no native face under it");
   measure_against_plan(native, planned, face, component, results);
   measure_vault_left(native, face, component, results);
+  measure_joint_line(native, planned, component, results);
   measure_vault_clearance(native, component, line, results);
+  measure_wall_thickness(native, face, left, component, results);
   return results;
 }
 

@@ -99,8 +99,10 @@ std::optional<double> SurfaceFinder::out_of_bone(const Vec3& point_mm, const Vec
   for (double s = from_mm + reach_mm_; s <= to_mm; s += voxel_mm) {
     if (voxel_at(line, s) > surface_level) continue;
     const double bone = std::max(from_mm, s - 2.0 * voxel_mm), air = s + voxel_mm;
-    const bool between = at(line, bone) >= surface_level && at(line, air) < surface_level;
-    return between ? level_between(line, air, bone) : s;
+    // Along a wall the line goes out slowly, and not where one byte says so.
+    for (double fine = bone + step_mm_; fine <= air + 4.0 * voxel_mm; fine += step_mm_)
+      if (at(line, fine) < surface_level) return level_between(line, fine, fine - step_mm_);
+    return s;
   }
   return std::nullopt;
 }

@@ -52,6 +52,8 @@ class Component {
   Vec3 apex_mm() const;
   const Vec3& axis() const { return line_.direction; }
   const CuttingMeridian& back() const { return back_; }
+  /// How far it reaches from its axis.
+  double outline_radius_mm() const { return outline_mm_; }
 
  private:
   struct Spot;  ///< of its back over a ray

@@ -101,11 +101,27 @@ void keep_face_only(const NativeGlenoid& native, const AchievedFace& left, const
   }
 }
 
+std::vector<int8_t> wall_codes(const NativeGlenoid& native, const std::vector<double>& thickness_mm,
+                               const AchievedFace& left, const voxel::VoxelGrid& grid,
+                               std::span<const Vec3f> vertices_mm) {
+  std::vector<int8_t> codes(vertices_mm.size(), deviation_unknown);
+  for (size_t i = 0; i < codes.size(); ++i) {
+    const Vec3 at = native.rays().in_lattice(grid.world_from_grid.point(vertices_mm[i].cast<double>()));
+    const int ray = native.rays().nearest(at.x(), at.y());
+    if (ray < 0 || thickness_mm[static_cast<size_t>(ray)] == no_surface_mm) continue;
+    const double steps = std::floor(thickness_mm[static_cast<size_t>(ray)] / wall_step_mm + 0.5);
+    codes[i] = static_cast<int8_t>(std::clamp(steps, 0.0, 127.0));
+  }
+  keep_face_only(native, left, grid, vertices_mm, codes);
+  return codes;
+}
+
 void write_deviation(const std::filesystem::path& json_path, const std::string& mesh_file, size_t vertices,
                      const DeviationFields& fields) {
   struct Field {
     const char *name, *words;
     const std::vector<int8_t>& codes;
+    double step_mm = deviation_step_mm;
   };
   std::vector<std::byte> bytes;
   nlohmann::json listed = nlohmann::json::array();
@@ -113,22 +129,23 @@ void write_deviation(const std::filesystem::path& json_path, const std::string& 
        {Field{"plan", "beyond the planned surface; negative: bone stands that the plan removes",
               fields.from_plan},
         Field{"implant", "gap to the back of the seated implant; negative: bone would stand into it",
-              fields.from_implant}}) {
+              fields.from_implant},
+        Field{"wall", "bone left behind the reamed face, along its normal, to where the bone ends first",
+              fields.wall, wall_step_mm}}) {
     if (field.codes.size() != vertices || vertices == 0) continue;
-    listed.push_back({{"name", field.name}, {"offset", bytes.size()}, {"words", field.words}});
+    listed.push_back(
+        {{"name", field.name}, {"offset", bytes.size()}, {"step_mm", field.step_mm}, {"words", field.words}});
     const auto* first = reinterpret_cast<const std::byte*>(field.codes.data());
     bytes.insert(bytes.end(), first, first + vertices);
   }
   std::filesystem::path bin_path = json_path;
   bin_path.replace_extension(".bin");
   write_file_atomically(bin_path, bytes);
-  const nlohmann::json description = {{"mesh", mesh_file},
-                                      {"file", bin_path.filename().string()},
-                                      {"vertices", vertices},
-                                      {"step_mm", deviation_step_mm},
-                                      {"range_mm", deviation_range_mm},
-                                      {"unknown", deviation_unknown},
-                                      {"fields", listed}};
+  const nlohmann::json description = {
+      {"revision", deviation_revision},       {"mesh", mesh_file},
+      {"file", bin_path.filename().string()}, {"vertices", vertices},
+      {"step_mm", deviation_step_mm},         {"range_mm", deviation_range_mm},
+      {"unknown", deviation_unknown},         {"fields", listed}};
   write_json_file(json_path, description);
 }
 

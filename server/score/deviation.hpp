@@ -60,10 +60,23 @@ inline constexpr double far_from_implant_mm = 8.0;
 void keep_face_only(const NativeGlenoid& native, const AchievedFace& left, const voxel::VoxelGrid& grid,
                     std::span<const Vec3f> vertices_mm, std::vector<int8_t>& codes);
 
-/// Deviations of one surface; a field is empty when there is nothing to compare with.
+/// Steps in which the thickness of a wall is told (wall_thickness_mm), mm: up to 31.75 mm.
+inline constexpr double wall_step_mm = 0.25;
+
+/// Thickness of wall behind a surface, vertex by vertex, in steps of wall_step_mm: that of the nearest ray.
+/// Unknown off what was reamed. `thickness_mm`: wall_thickness_mm; the others as for keep_face_only().
+std::vector<int8_t> wall_codes(const NativeGlenoid& native, const std::vector<double>& thickness_mm,
+                               const AchievedFace& left, const voxel::VoxelGrid& grid,
+                               std::span<const Vec3f> vertices_mm);
+
+/// Maps of one surface; a field is empty when there is nothing to compare with.
 struct DeviationFields {
   std::vector<int8_t> from_plan, from_implant;
+  std::vector<int8_t> wall;  ///< in steps of wall_step_mm
 };
+
+/// Of what write_deviation() writes; 2: with the wall, and a step for every field.
+inline constexpr int deviation_revision = 2;
 
 /// Writes `json_path` (proto/deviation.schema.json) and beside it a file of the same stem that ends in .bin:
 /// one byte a vertex and field in the order of the vertices of `mesh_file`, which has `vertices` of them.

@@ -119,6 +119,8 @@ void Handling::add(const record::TickReport& r, const Vec3& in_bone_mm, double a
   passes_.add(r);
   spindle_use_.add(r);
   path_.add(in_bone_mm, r.engaged, r.paused);
+  economy_.add(r, in_bone_mm, axial_mm);
+  thrust_rate_.add(r);
 }
 
 double Handling::duration_s() const { return static_cast<double>(ticks_) * tick_s; }
@@ -130,11 +132,13 @@ void Handling::write(MetricResults& results) const {
   results.set("spindle_stalls", stalls_);
   results.set_exact("extrapolated_time_s", static_cast<double>(extrapolated_ticks_) * tick_s);
   thrust_.write(results);
+  thrust_rate_.write(results);
   write_advances(results);
   spindle_use_.write(results);
   results.set("passes", passes_.count());
   results.set("path_in_contact_mm", path_.in_contact_mm());
   results.set("path_out_of_contact_mm", path_.in_the_air_mm());
+  economy_.write(results);
   const Strokes& strokes = path_.strokes();
   results.set("strokes", strokes.count());
   const char* no_stroke = "the tool made no stroke";

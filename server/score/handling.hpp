@@ -4,7 +4,9 @@
 
 #include "record/tick_report.hpp"
 #include "score/metric_results.hpp"
+#include "score/path_economy.hpp"
 #include "score/spindle_use.hpp"
+#include "score/thrust_rate.hpp"
 #include "score/tool_path.hpp"
 
 namespace ream::score {
@@ -119,6 +121,8 @@ class Handling {
   ContactPasses passes_;
   SpindleUse spindle_use_;
   ToolPath path_;
+  PathEconomy economy_;
+  ThrustRate thrust_rate_;
 };
 
 }  // namespace ream::score

@@ -23,16 +23,20 @@ constexpr std::string_view malposition =
     "Throckmorton 2015, Hagan 2023: malposition is over 10 degrees or 4 mm; the limits of 5 degrees and 2 mm "
     "are ours";
 constexpr std::string_view scapular_plane =
-    "3D against the plane of trigonum, inferior angle and glenoid centre (science 2.1)";
-constexpr std::string_view angle_checked = "within 0.2 degrees of the truth in 100 seeded reamings";
-constexpr std::string_view entry_checked = "within 0.1 mm of the truth in 100 seeded reamings";
+    "3D, against the plane of trigonum, inferior angle and glenoid centre; Friedman's version is its like in "
+    "one axial slice, Churchill's inclination has the same axis, Maurer's beta another";
+constexpr std::string_view angle_checked =
+    "within 0.2 degrees of the truth in 100 seeded reamings of formula bones; scan and landmarks come on top";
+constexpr std::string_view entry_checked =
+    "within 0.1 mm of the truth in 100 seeded reamings of formula bones";
 constexpr std::string_view rim_depends =
     "depends on the shape of the face: a sphere's rim lies across the line of both centres, not across the "
     "tool; up to a degree off where the reamer walked and left a ledge";
 constexpr std::string_view of_the_plan = "as exact as the landmarks that were placed";
 constexpr std::string_view checked_sum =
-    "an exact sum over ticks; within 0.5 % of the truth in seeded reamings";
-constexpr std::string_view half_voxel = "within half a voxel of the truth in 100 seeded reamings";
+    "an exact sum over ticks; within 0.5 % of the truth in seeded reamings of formula bones";
+constexpr std::string_view half_voxel =
+    "within half a voxel of the truth in 100 seeded reamings of formula bones";
 constexpr std::string_view half_voxel_volume =
     "exact to half a voxel's thickness over the face; the plan is that of the reamer that was used";
 constexpr std::string_view limits_ours = "limits are engineering judgement";
@@ -53,12 +57,35 @@ constexpr std::string_view eriksson =
     "Eriksson and Albrektsson: 47 degrees for a minute and 56 at once; the lower limits are ours";
 constexpr std::string_view heat_model =
     "of a 1-D model; what of the spindle's power goes into bone, 0.3 to 0.7, is known to 40 %";
+constexpr std::string_view economy =
+    "time and motion: economy of movement, the ideal path length over the actual one; what is ideal is ours";
+constexpr std::string_view economy_checked =
+    "exact to rounding against a second computation on 50 seeded paths; to be compared with experts on the "
+    "same simulator";
+constexpr std::string_view rate_checked =
+    "within 0.1 % of the formula for sines and of a second computation on 50 seeded thrusts; to be compared "
+    "with experts on the same simulator";
+constexpr std::string_view joint_line_ours =
+    "engineering judgement: what arthroplasty calls shift of the joint line, along two axes that are named";
+constexpr std::string_view wall_ours =
+    "Clavert 2007 (perforation, fracture of the rim); the measure and its 3 mm and 2.5 mm are ours";
+constexpr std::string_view wall_checked =
+    "within half a voxel of the truth in 50 seeded reamings of formula bones; half a voxel at least, and as "
+    "exact as the vault's wall in the scan";
+constexpr std::string_view own_component =
+    "the component is the one of the library that the plan's implant_size names, else its \"pegged medium\"; "
+    "their sizes are ours";
+constexpr std::string_view joint_line_checked =
+    "within half a voxel of the truth in 50 seeded reamings of formula bones; a component is taken to be 4 "
+    "mm "
+    "thick";
 constexpr std::string_view compare = "to be compared with experts on the same simulator";
 
 constexpr Metric catalogue[] = {
     {"version_planned_deg", "Version planned", "deg",
-     "Version of a face across the planned axis, retroversion negative.", scapular_plane, judgement,
-     of_the_plan, alignment, plan, any_angle, only_reported, no_aim, version},
+     "Version of a face across the planned axis, retroversion negative: how far it is turned about the "
+     "scapula's upright, out of the plane across the line from trigonum to glenoid centre.",
+     scapular_plane, judgement, of_the_plan, alignment, plan, any_angle, only_reported, no_aim, version},
     {"version_achieved_deg", "Version achieved", "deg",
      "Version of a face across the achieved axis: the tool's axis, weighted by removed volume over the last "
      "0.5 mm of advance; retroversion negative.",
@@ -77,8 +104,10 @@ constexpr Metric catalogue[] = {
      "PMC4857532: within 7 degrees of neutral is achieved; Ho 2013: osteolysis from 15 degrees on", published,
      angle_checked, alignment, achieved_axis, angle_size, at_most(1.0, 8.0)},
     {"inclination_planned_deg", "Inclination planned", "deg",
-     "Inclination of a face across the planned axis, superior positive.", scapular_plane, judgement,
-     of_the_plan, alignment, plan, any_angle, only_reported, no_aim, inclination},
+     "Inclination of a face across the planned axis, superior positive: how far it is tilted in the scapular "
+     "plane, against a line across that from trigonum to glenoid centre (Churchill's axis). It is not "
+     "Maurer's beta, which is against the floor of the supraspinatus fossa.",
+     scapular_plane, judgement, of_the_plan, alignment, plan, any_angle, only_reported, no_aim, inclination},
     {"inclination_achieved_deg", "Inclination achieved", "deg",
      "Inclination of a face across the achieved axis, superior positive.", scapular_plane, judgement,
      angle_checked, alignment, achieved_axis, any_angle, only_reported, no_aim, inclination,
@@ -144,6 +173,22 @@ constexpr Metric catalogue[] = {
      "cartilage.",
      "Frich 1998: plate of 1.9 mm (1.2 to 2.9)", judgement, limits_ours, bone, reamed_bone, not_negative,
      at_most(2.0, 3.0)},
+    {"joint_line_planned_mm", "Joint line planned", "mm", "Joint line if the plan is carried out exactly.",
+     joint_line_ours, judgement, "by the same measure", bone, untouched_bone, any, only_reported},
+    {"joint_line_mm", "Joint line", "mm",
+     "How far the middle of the component's articular surface lies lateral of the native joint line, medial "
+     "negative: along the planned axis, from where that meets the untouched face. Where the component fits a "
+     "face reamed along the plan this is its thickness less medialization and cartilage.",
+     joint_line_ours, judgement, joint_line_checked, bone, reamed_bone, any, only_reported, no_aim, number,
+     "joint_line_planned_mm"},
+    {"joint_line_offset_mm", "Joint line against the plan", "mm",
+     "Joint line less joint line planned: lateral positive.", joint_line_ours, judgement, joint_line_checked,
+     bone, reamed_bone, any, only_reported},
+    {"lateralization_mm", "Lateralization", "mm",
+     "The same place of the articular surface, from the same place of the untouched face, along the "
+     "scapula's "
+     "lateral axis from the trigonum to the glenoid's centre; medial negative.",
+     joint_line_ours, judgement, joint_line_checked, bone, reamed_bone, any, only_reported},
     {"plan_overlap_percent", "Overlap with the plan", "%",
      "Dice's coefficient of what was removed of the face and what the plan removes: twice what both have, "
      "over the sum of both; along rays that are parallel to the planned axis.",
@@ -163,8 +208,8 @@ constexpr Metric catalogue[] = {
      "reamer, trimmed to the native face and without the pilot hole; pressed along the achieved axis until 1 "
      "% of it would have to sink in.",
      "Lazarus 2002 (percentage supported by bone); 0.5 mm, 80 % and 90 % are ours", judgement,
-     "within 1 point of the truth in 100 seeded reamings; limits are engineering judgement", bone,
-     reamed_bone, percent_range, at_least(90.0, 80.0), no_aim, number, "seating_planned_percent"},
+     "within 1 point of the truth in 100 seeded reamings of formula bones; limits are engineering judgement",
+     bone, reamed_bone, percent_range, at_least(90.0, 80.0), no_aim, number, "seating_planned_percent"},
     {"seating_planned_percent", "Seating planned", "%", "Seating if the plan is carried out exactly.",
      no_limits, judgement, "by the same measure", bone, untouched_bone, percent_range, only_reported, no_aim,
      number},
@@ -183,8 +228,8 @@ constexpr Metric catalogue[] = {
      "Share of the component's footprint in which at least half of the plate is left along the planned axis; "
      "the plate is found by density, or taken as 1.9 mm thick where density does not show it.",
      "readbyqxmd 29974217: removal increases micromotion (p = 0.043)", published,
-     "within 2 points of the truth in 100 seeded reamings; limits are engineering judgement", bone,
-     reamed_bone, percent_range, at_least(80.0, 60.0), no_aim, number, "plate_planned_percent"},
+     "within 2 points of the truth in 100 seeded reamings of formula bones; limits are engineering judgement",
+     bone, reamed_bone, percent_range, at_least(80.0, 60.0), no_aim, number, "plate_planned_percent"},
     {"plate_planned_percent", "Subchondral plate planned", "%",
      "Share of plate preserved if the plan is carried out exactly.", no_limits, judgement,
      "by the same measure", bone, untouched_bone, percent_range, only_reported},
@@ -207,15 +252,30 @@ constexpr Metric catalogue[] = {
     {"vault_distance_tool_mm", "Vault distance, reamer", "mm",
      "Least distance of the reamer's apex, or of its nipple's tip, at its deepest from the outer cortex.",
      clavert, published, limits_ours, bone, reamed_bone, any, at_least(2.0, barely_mm)},
+    {"vault_distance_component_mm", "Vault distance, component", "mm",
+     "Least distance of the pegs or the keel of the planned component, seated, from the outer cortex of the "
+     "vault; negative beyond it.",
+     clavert, published, own_component, bone, reamed_bone, any, at_least(2.0, barely_mm)},
     {"vault_breach_mm", "Vault breach", "mm",
-     "How far the pegs reach beyond the outer cortex; 0 where they do not.", clavert, published,
-     "any breach is critical", bone, reamed_bone, not_negative, at_most(0.0, 0.0)},
+     "How far the pegs or the keel of the planned component reach beyond the outer cortex; 0 where they do "
+     "not.",
+     clavert, published, own_component, bone, reamed_bone, not_negative, at_most(0.0, 0.0)},
+    {"parts_through_vault", "Pegs through the vault", "",
+     "How many pegs or keels of the planned component leave the vault.", clavert, published, own_component,
+     bone, reamed_bone, not_negative, at_most(0.0, 0.0)},
     {"vault_depth_mm", "Bone left in the vault", "mm",
      "Least bone left along the planned axis under the component's middle: within 6 mm of it, beside the "
      "pilot "
      "hole.",
      no_limits, judgement, "as exact as the vault's far wall in the scan", bone, reamed_bone, not_negative,
      only_reported},
+    {"wall_thickness_least_mm", "Thinnest wall", "mm",
+     "Least bone left behind what was reamed, along the normal of the reamed face (of the plane that fits it "
+     "within 2.5 mm) to where the bone ends first; under the component without its outermost 3 mm.",
+     wall_ours, judgement, wall_checked, bone, reamed_bone, not_negative, only_reported, Better::more},
+    {"wall_thickness_thin_mm", "Thin wall, 5th percentile", "mm",
+     "The thickness of wall that 5 % of those places fall below.", wall_ours, judgement, wall_checked, bone,
+     reamed_bone, not_negative, only_reported, Better::more},
     {"perforated_area_mm2", "Perforation by the reamer", "mm2",
      "Of the component's footprint, where all bone is gone of what was at least 5 mm thick.", clavert,
      published, "up to 1 mm2 may be the edge of a ray", bone, reamed_bone, not_negative, at_most(0.0, 1.0)},
@@ -225,6 +285,15 @@ constexpr Metric catalogue[] = {
     {"axial_thrust_sd_n", "Thrust, standard deviation", "N", "Standard deviation of the same.",
      "thesis 5.1: a robot keeps 52 N within 4.3 N", published, compare, handling, episode, not_negative,
      only_reported, Better::less},
+    {"thrust_rate_percent_s", "Unevenness of thrust", "%/s",
+     "Root mean square rate at which thrust changes, as a share of the mean thrust, over presses with at "
+     "least "
+     "5 N while the spindle turns in contact: from one mean over 50 ms to the next, without the first and "
+     "the "
+     "last quarter of a second of each press. 0 for a steady thrust.",
+     "Trejos 2014: derivatives of force as measures of skill; the low-pass and the division by the mean are "
+     "ours",
+     published, rate_checked, handling, episode, not_negative, only_reported, Better::less},
     {"axial_thrust_peak_n", "Peak thrust", "N",
      "Greatest thrust over the ticks in contact with the spindle on.", thesis, judgement, exact_sum, handling,
      ticks, any, at_most(104.0, 104.0)},
@@ -286,6 +355,21 @@ constexpr Metric catalogue[] = {
     {"air_spin_time_s", "Turning in the air", "s",
      "Time in which the spindle is on and the reamer touches no bone.", "engineering judgement", judgement,
      exact_sum, handling, ticks, not_negative, only_reported},
+    {"withdrawn_spin_time_s", "Turning after a contact", "s",
+     "Of the time of turning in the air, that after the first contact: between contacts, and after the last.",
+     "engineering judgement", judgement, exact_sum, handling, ticks, not_negative, only_reported,
+     Better::less},
+    {"spindle_starts_in_contact", "Starts on the bone", "",
+     "How often the spindle was started while the reamer touched bone.",
+     "surgeons are taught to start the reamer before it touches bone", judgement, exact_sum, handling, ticks,
+     not_negative, only_reported, Better::less},
+    {"contact_before_spin_s", "Contact before spin", "s",
+     "Time for which a standing reamer had touched bone when it was started there, with any force; breaks of "
+     "up to 0.5 s part no contact. A standing reamer that is taken off the bone before it is started does "
+     "not "
+     "count: that is in 'Pressed on with a standing reamer'.",
+     "surgeons are taught to start the reamer before it touches bone", judgement, exact_sum, handling, ticks,
+     not_negative, only_reported, Better::less},
     {"idle_time_s", "Time between contacts", "s",
      "Time without contact between the first contact and the last.", time_and_motion, published, exact_sum,
      handling, ticks, not_negative, only_reported, Better::less},
@@ -300,6 +384,16 @@ constexpr Metric catalogue[] = {
      published, exact_sum, handling, ticks, not_negative, only_reported, Better::less},
     {"path_out_of_contact_mm", "Path in the air", "mm", "The same while it does not.", time_and_motion,
      published, exact_sum, handling, ticks, not_negative, only_reported, Better::less},
+    {"path_economy_contact_percent", "Economy of movement, in contact", "%",
+     "How much deeper along the planned axis the tool's apex came while it touched bone, which is the "
+     "shortest "
+     "path that the cutting needs, over the path in contact.",
+     economy, published, economy_checked, handling, episode, percent_range, only_reported, Better::more},
+    {"path_economy_percent", "Economy of movement", "%",
+     "The shortest path over the path of the whole session, from first approach to last withdrawal. The "
+     "shortest goes straight from where the apex began to the deepest place at which bone was removed, and "
+     "straight to where it ended.",
+     economy, published, economy_checked, handling, episode, percent_range, only_reported, Better::more},
     {"strokes", "Strokes", "",
      "Movements of the tool's apex at over 1 mm/s for at least 0.2 s, ended by 0.1 s below that.",
      "engineering judgement", judgement, exact_sum, handling, ticks, not_negative, only_reported},

@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "score/alignment.hpp"
+#include "score/joint_line.hpp"
 
 namespace ream::score {
 namespace {
-
-constexpr const char* not_planned = "the case has no plan, or its reamer does not touch the face";
 
 /// Depth of the planned reamer's front on a ray, mm; nothing beyond its rim.
 double front_mm(const NativeGlenoid& native, size_t ray, double apex_mm) {
@@ -66,6 +65,7 @@ PlannedFace planned_face(const NativeGlenoid& native) {
   if (component.seated()) planned.seating_percent = 100.0 * component.supported_share();
   planned.plate_percent = plate_preserved_percent(native, face.removed_mm, component.footprint());
   planned.plate_left_percent = plate_left_percent(native, face.removed_mm, component.footprint());
+  planned.joint_line_mm = joint_line_mm(native, component);
   planned.removed_mm = std::move(face.removed_mm);
   return planned;
 }
@@ -85,6 +85,7 @@ std::optional<double> plate_preserved_percent(const NativeGlenoid& native,
 void measure_planned_face(const PlannedFace& planned, MetricResults& results) {
   results.set_or_missing("seating_planned_percent", planned.seating_percent, not_planned);
   results.set_or_missing("plate_planned_percent", planned.plate_percent, not_planned);
+  results.set_or_missing("joint_line_planned_mm", planned.joint_line_mm, not_planned);
 }
 
 void measure_against_plan(const NativeGlenoid& native, const PlannedFace& planned, const AchievedFace& face,

@@ -7,6 +7,9 @@
 
 namespace ream::score {
 
+/// Why what is compared with the plan is missing.
+inline constexpr const char* not_planned = "the case has no plan, or its reamer does not touch the face";
+
 /// What the plan makes of a glenoid, along the rays of its NativeGlenoid: the reamer (Task::reamer, the last
 /// that was used) has gone down the planned axis to the planned depth, and the component is seated there.
 /// Made once a session.
@@ -16,6 +19,7 @@ struct PlannedFace {
   /// Of the component on it: seating, share of the footprint with at least half of the plate, share of the
   /// plate's bone under it that is left.
   std::optional<double> seating_percent, plate_percent, plate_left_percent;
+  std::optional<double> joint_line_mm;  ///< of the same component, see joint_line.hpp
 
   bool known() const { return !removed_mm.empty(); }
 };

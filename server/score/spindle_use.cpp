@@ -8,10 +8,34 @@
 
 namespace ream::score {
 
+namespace {
+
+constexpr int64_t parting_ticks = 500;  ///< off the bone; less parts no contacts (science 2.2)
+
+}  // namespace
+
+/// Called while turning_ is still that of the tick before.
+void SpindleUse::follow_start(const record::TickReport& r) {
+  if (!r.engaged) {
+    if (ticks_off_bone_ >= parting_ticks || r.spindle_on) standing_ticks_ = 0;
+    return;
+  }
+  if (!r.spindle_on) {
+    ++standing_ticks_;
+    return;
+  }
+  if (turning_) return;
+  ++starts_in_contact_;
+  contact_before_spin_ticks_ += standing_ticks_;
+  standing_ticks_ = 0;
+}
+
 void SpindleUse::add(const record::TickReport& r) {
   if (r.paused) return;
+  follow_start(r);
   standing_press_ticks_ += r.engaged && !r.spindle_on && r.thrust_n >= pressing_n;
   air_spin_ticks_ += !r.engaged && r.spindle_on;
+  withdrawn_spin_ticks_ += !r.engaged && r.spindle_on && touched_;
   restarts_ += r.spindle_on && !turning_ && turned_;
   turning_ = r.spindle_on;
   turned_ = turned_ || r.spindle_on;
@@ -29,6 +53,9 @@ void SpindleUse::write(MetricResults& results) const {
   results.set_exact("air_spin_time_s", static_cast<double>(air_spin_ticks_) * tick_s);
   results.set_exact("idle_time_s", static_cast<double>(idle_ticks_) * tick_s);
   results.set("spindle_restarts", restarts_);
+  results.set_exact("withdrawn_spin_time_s", static_cast<double>(withdrawn_spin_ticks_) * tick_s);
+  results.set_exact("contact_before_spin_s", static_cast<double>(contact_before_spin_ticks_) * tick_s);
+  results.set("spindle_starts_in_contact", starts_in_contact_);
 }
 
 void AxisSteadiness::add(const record::TickReport& r, const Pose& bone_from_tool) {

@@ -25,11 +25,19 @@ class SpindleUse {
   void write(MetricResults& results) const;
 
  private:
+  void follow_start(const record::TickReport& report);
+
   int64_t standing_press_ticks_ = 0, air_spin_ticks_ = 0;
   int64_t idle_ticks_ = 0;      ///< without contact, between two contacts
   int64_t ticks_off_bone_ = 0;  ///< since the last contact
   bool touched_ = false, turned_ = false, turning_ = false;
   int restarts_ = 0;
+  int64_t withdrawn_spin_ticks_ = 0;  ///< of air_spin_ticks_, after a contact
+  /// In contact with a standing spindle since the last start and the last contact that ended: parted only by
+  /// more than half a second off the bone.
+  int64_t standing_ticks_ = 0;
+  int64_t contact_before_spin_ticks_ = 0;
+  int starts_in_contact_ = 0;
 };
 
 /// How steadily the tool's axis is held while it cuts, in the bone's frame.

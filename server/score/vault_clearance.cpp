@@ -3,51 +3,22 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "core/units.hpp"
+#include "score/component_library.hpp"
 
 namespace ream::score {
 namespace {
 
-constexpr double below_back_mm = 2.0, apart_mm = 1.0;
-constexpr int corners_of_peg = 16;
-
-int parts(double length_mm) { return std::max(1, static_cast<int>(std::ceil(length_mm / apart_mm))); }
-
-void add_peg(const Peg& peg, std::vector<Vec3>& points) {
-  const int levels = parts(peg.length_mm - below_back_mm);
-  for (int level = 0; level <= levels; ++level) {
-    const double z = below_back_mm + (peg.length_mm - below_back_mm) * level / levels;
-    for (int corner = 0; corner < corners_of_peg; ++corner) {
-      const double angle = 2.0 * pi * corner / corners_of_peg, radius = 0.5 * peg.diameter_mm;
-      points.emplace_back(peg.anterior_mm + radius * std::cos(angle),
-                          peg.superior_mm + radius * std::sin(angle), z);
-    }
-  }
-  points.emplace_back(peg.anterior_mm, peg.superior_mm, peg.length_mm);
-}
-
-/// The outline of every level; its widest is at the back.
-void add_keel(const Keel& keel, std::vector<Vec3>& points) {
-  const int levels = parts(keel.length_mm - below_back_mm), rows = parts(keel.height_mm);
-  for (int level = 0; level <= levels; ++level) {
-    const double z = below_back_mm + (keel.length_mm - below_back_mm) * level / levels;
-    const double t = z / keel.length_mm;
-    const double half_height = 0.5 * (keel.height_mm + t * (keel.tip_height_mm - keel.height_mm));
-    const double half_thickness = 0.5 * (keel.thickness_mm + t * (keel.tip_thickness_mm - keel.thickness_mm));
-    for (int row = 0; row <= rows; ++row)
-      for (const double side : {-1.0, 1.0})
-        points.emplace_back(side * half_thickness, half_height * (2.0 * row / rows - 1.0), z);
-  }
-}
-
 constexpr double max_distance_mm = 25.0;
 constexpr int corners_of_nipple = 12;
 
-/// Where the untouched bone is along the nearest ray; a peg beyond the exit has come through.
+/// Where the untouched bone is along the rays around a place; a peg beyond the exit has come through.
 bool in_bone(const NativeGlenoid& native, const Vec3& in_lattice_mm) {
-  const int ray = native.rays().nearest(in_lattice_mm.x(), in_lattice_mm.y());
+  const RayLattice& rays = native.rays();
+  const double between = rays.between(native.exit_mm(), in_lattice_mm.x(), in_lattice_mm.y());
+  if (between != no_surface_mm) return in_lattice_mm.z() <= between;
+  const int ray = rays.nearest(in_lattice_mm.x(), in_lattice_mm.y());
   if (ray < 0) return false;
   const auto i = static_cast<size_t>(ray);
   return native.surface_mm()[i] != no_surface_mm && in_lattice_mm.z() <= native.exit_mm()[i];
@@ -105,40 +76,34 @@ std::vector<Vec3> tip_of_tool(const NativeGlenoid& native, const CutLine& line) 
 
 }  // namespace
 
-std::span<const Fixation> fixations() {
-  static const std::vector<Fixation> all{
-      {"pegs", {{0.0, 0.0, 7.0, 15.0}, {0.0, 9.0, 4.5, 10.0}, {0.0, -9.0, 4.5, 10.0}}, {}},
-      {"keel", {}, {Keel{}}}};
-  return all;
-}
-
-const Fixation& fixation_named(std::string_view name) {
-  for (const Fixation& fixation : fixations())
-    if (fixation.name == name) return fixation;
-  throw std::invalid_argument("no fixation " + std::string(name));
-}
-
-std::vector<Vec3> surface_points(const Fixation& fixation) {
-  std::vector<Vec3> points;
-  for (const Peg& peg : fixation.pegs) add_peg(peg, points);
-  for (const Keel& keel : fixation.keels) add_keel(keel, points);
-  return points;
-}
-
 void measure_vault_clearance(const NativeGlenoid& native, const Component& component, const CutLine& line,
                              MetricResults& results) {
-  static const std::vector<Vec3> pegs = surface_points(fixation_named("pegs"));
-  static const std::vector<Vec3> keel = surface_points(fixation_named("keel"));
   results.set("vault_distance_tool_mm", min_distance_mm(native, tip_of_tool(native, line)));
   const char* not_seated = "there is no bone left to seat a component on";
-  for (const char* key : {"vault_distance_mm", "vault_distance_keel_mm", "vault_breach_mm"})
+  for (const char* key : {"vault_distance_mm", "vault_distance_keel_mm", "vault_distance_component_mm",
+                          "vault_breach_mm", "parts_through_vault"})
     results.set_missing(key, not_seated);
   if (!component.seated()) return;
   const Vec3 superior = superior_across(native, component.axis());
-  const double of_pegs = min_distance_mm(native, placed(pegs, component, superior));
+  const auto distance_of = [&](const LibraryComponent& of) {
+    std::vector<Vec3> points;
+    for (const std::vector<Vec3>& part : surface_points(of))
+      points.insert(points.end(), part.begin(), part.end());
+    return min_distance_mm(native, placed(points, component, superior));
+  };
+  const LibraryComponent& own = component_of(native.task().plan);
+  const double of_pegs = distance_of(virtual_component());
+  const double of_own = &own == &virtual_component() ? of_pegs : distance_of(own);
   results.set("vault_distance_mm", of_pegs);
-  results.set("vault_breach_mm", std::max(0.0, -of_pegs));
-  results.set("vault_distance_keel_mm", min_distance_mm(native, placed(keel, component, superior)));
+  results.set("vault_distance_keel_mm", distance_of(virtual_keel()));
+  results.set("vault_distance_component_mm", of_own);
+  results.set("vault_breach_mm", std::max(0.0, -of_own));
+  size_t through = 0;
+  for (const std::vector<Vec3>& part : surface_points(own)) {
+    const std::vector<Vec3> points = placed(part, component, superior);
+    through += std::any_of(points.begin(), points.end(), [&](const Vec3& p) { return !in_bone(native, p); });
+  }
+  results.set("parts_through_vault", static_cast<double>(through));
 }
 
 }  // namespace ream::score

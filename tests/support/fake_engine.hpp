@@ -52,7 +52,7 @@ class FakeEngine : public session::SessionEngine {
   void write_deviations(const std::filesystem::path&, const std::filesystem::path& json,
                         const Progress&) const override {
     wait();
-    score::write_deviation(json, "reamed.ply", 4, {{-128, -1, 0, 127}, {}});
+    score::write_deviation(json, "reamed.ply", 4, {{-128, -1, 0, 127}, {}, {}});
   }
   void check_export(const session::ExportFormat& format, const session::ExportOrder& order) const override {
     if (format.is_report() && order.rubric == "nothing")

@@ -17,8 +17,10 @@ inline session::SimulationSetup setup_of(const RandomReaming& reaming, double vo
   c.side = reaming.glenoid.shoulder.side;
   c.bone = bone_of(reaming.glenoid, voxel_mm);
   c.plan = reaming.plan;
+  const case_::Landmarks landmarks = shoulder_landmarks(reaming.glenoid.shoulder);
+  c.glenoid = case_::glenoid_frame(landmarks, c.side);
   case_::save_case(c, data / "cases/glenoid");
-  case_::save_landmarks(shoulder_landmarks(reaming.glenoid.shoulder), data / "cases/glenoid");
+  case_::save_landmarks(landmarks, data / "cases/glenoid");
   write_file_atomically(folder.path() / "script.json", reaming.script.dump());
   session::RunRequest request;
   request.case_name = "glenoid";

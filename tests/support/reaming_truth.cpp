@@ -280,8 +280,14 @@ void along_the_plan(const PlannedReaming& planned, const Reamed& reamed, const L
   truth.plate_percent = 100.0 * preserved / whole;
 }
 
+/// How well and where a component stands.
+struct Seat {
+  double percent = 0.0;
+  SeatedTruth where;
+};
+
 /// Seated along the achieved axis until 1 % of the area with bone sinks in.
-double seating_percent(const PlannedReaming& planned, const Reamed& reamed, const Line& achieved) {
+Seat seat_of(const PlannedReaming& planned, const Reamed& reamed, const Line& achieved) {
   const double implant = planned.plan.implant_radius_mm.value_or(0.0);
   const auto behind = [&](double r) {
     return implant > 0.0 ? implant - std::sqrt(implant * implant - r * r) : planned.reamer.behind_mm(r);
@@ -301,7 +307,24 @@ double seating_percent(const PlannedReaming& planned, const Reamed& reamed, cons
   const double seat = gaps.at(static_cast<size_t>(0.01 * static_cast<double>(gaps.size()))).first;
   const auto supported = std::count_if(gaps.begin(), gaps.end(),
                                        [&](const auto& g) { return (g.first - seat) * g.second <= 0.5; });
-  return 100.0 * static_cast<double>(supported) / static_cast<double>(whole);
+  return {100.0 * static_cast<double>(supported) / static_cast<double>(whole),
+          {achieved.point + seat * achieved.direction, achieved.direction}};
+}
+
+/// Places of the reamed face on the lattice of ReamedPlace.
+std::vector<ReamedPlace> reamed_places(const PlannedReaming& planned, const Reamed& reamed) {
+  const Vec3 along = planned.plan.axis_direction;
+  const Vec3 up = (Vec3::UnitZ() - along.z() * along).normalized(), across = along.cross(up);
+  const int most = static_cast<int>((planned.reamer.outer_mm + 4.0) / reamed_place_spacing_mm);
+  std::vector<ReamedPlace> places;
+  for (int column = -most; column <= most; ++column)
+    for (int row = -most; row <= most; ++row) {
+      Line line{planned.plan.entry_mm + reamed_place_spacing_mm * (column * across + row * up), along};
+      reamed.look_along(line);
+      if (!counts(planned, line) || line.removed < reamed_mm || line.after == nothing) continue;
+      places.push_back({column, row, line.point + line.after * along});
+    }
+  return places;
 }
 
 /// Outermost reamed places at equal angles about the middle of the footprint, and the plane through them.
@@ -485,7 +508,9 @@ void against_the_plan(const PlannedReaming& planned, const std::vector<Line>& li
   }
   truth.overlap_percent = 200.0 * both / (2.0 * both + truth.overreamed_mm3 + truth.underreamed_mm3);
   const Line axis{planned.plan.entry_mm, planned.plan.axis_direction};
-  truth.seating_planned_percent = seating_percent(planned, ideal, axis);
+  const Seat seat = seat_of(planned, ideal, axis);
+  truth.seating_planned_percent = seat.percent;
+  truth.seated_as_planned = seat.where;
   ReamingTruth carried_out;
   along_the_plan(planned, ideal, axis, wanted, carried_out);
   truth.plate_planned_percent = carried_out.plate_percent;
@@ -510,7 +535,10 @@ ReamingTruth reaming_truth(const PlannedReaming& planned, const std::filesystem:
   std::vector<Line> lines = lattice(planned.plan.entry_mm, along, planned.reamer.outer_mm + 4.0);
   for (Line& line : lines) reamed.look_along(line);
   along_the_plan(planned, reamed, achieved, lines, truth);
-  truth.seating_percent = seating_percent(planned, reamed, achieved);
+  const Seat seat = seat_of(planned, reamed, achieved);
+  truth.seating_percent = seat.percent;
+  truth.seated = seat.where;
+  truth.reamed = reamed_places(planned, reamed);
   fit_rim(planned, reamed, lines, truth);
   against_the_plan(planned, lines, truth);
   return truth;

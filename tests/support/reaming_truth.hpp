@@ -26,6 +26,19 @@ struct PlannedReaming {
   double pilot_margin_mm = 0.4;  ///< left out of the face around the pilot hole: a voxel
 };
 
+/// A component as it was seated: the middle of its back, and its axis into the bone. World frame.
+struct SeatedTruth {
+  Vec3 apex_mm = Vec3::Zero(), axis = Vec3::UnitZ();
+};
+
+/// A place of the reamed face that counts, on a lattice along the plan: square, a quarter of a millimetre
+/// apart, through the entry, one of its sides along what of the world's z lies across the plan.
+struct ReamedPlace {
+  int column = 0, row = 0;
+  Vec3 world_mm = Vec3::Zero();
+};
+inline constexpr double reamed_place_spacing_mm = 0.25;
+
 /// What must come out, by the glenoid's formulas and the poses of trace.csv alone: the union of the reamer at
 /// those poses, taken from the glenoid, integrated numerically in double precision.
 struct ReamingTruth {
@@ -38,6 +51,8 @@ struct ReamingTruth {
   double planned_mm3 = 0.0;  ///< of the face, if the plan is carried out
   double overreamed_mm3 = 0.0, underreamed_mm3 = 0.0, overlap_percent = 0.0;  ///< against that
   double seating_planned_percent = 0.0, plate_planned_percent = 0.0;          ///< of that
+  SeatedTruth seated, seated_as_planned;
+  std::vector<ReamedPlace> reamed;
 };
 
 /// How deep the bone is gone along the plan while it is being reamed, by the glenoid's formulas and the

@@ -22,7 +22,7 @@ namespace ream::app {
 namespace {
 
 struct PlanOptions {
-  std::string case_name, axis, reamer, guide, override_reason;
+  std::string case_name, axis, reamer, guide, override_reason, implant;
   std::filesystem::path landmarks;
   std::optional<double> version_deg, inclination_deg, implant_radius_mm;
   std::optional<double> depth_mm, pilot_diameter_mm, pilot_depth_mm;
@@ -126,6 +126,7 @@ case_::Plan changed_plan(const PlanOptions& options, const Patient& patient) {
     if (options.reamer.empty()) plan.reamer = shell::reamer_for_implant(*options.implant_radius_mm).name;
   }
   if (!options.reamer.empty()) plan.reamer = options.reamer;
+  if (!options.implant.empty()) plan.implant_size = options.implant;
   set_pilot(plan, options);
   if (!options.guide.empty()) plan.guide = case_::guide_from_text(options.guide);
   plan.override_correction = plan.override_correction || !options.override_reason.empty();
@@ -204,6 +205,9 @@ void add_plan_command(CLI::App& app, GlobalOptions& global) {
   command->add_option("CASE", options->case_name, "Name of a case, or its folder")->required();
   add_axis_options(*command, *options);
   command->add_option("--depth-mm", options->depth_mm, "Depth past first contact of the cutting surface");
+  command->add_option("--implant", options->implant,
+                      "Component: pegged or keeled, small, medium or large (\"pegged medium\"), or as its "
+                      "maker names it; pegs and keels of the first are scored");
   command->add_option("--implant-radius-mm", options->implant_radius_mm,
                       "Radius of the component's back; picks the reamer unless --reamer does");
   command->add_option("--reamer", options->reamer,

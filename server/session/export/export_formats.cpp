@@ -84,7 +84,8 @@ Surfaces surfaces_of(const ExportRequest& request, const Progress& progress) {
   progress(0.9, "writing");
   return {compared.bone.after.transformed(world_from_grid),
           compared.implant.transformed(world_from_grid),
-          {std::move(compared.bone.from_plan), std::move(compared.bone.from_implant)},
+          {std::move(compared.bone.from_plan), std::move(compared.bone.from_implant),
+           std::move(compared.bone.wall)},
           compared.bone.side};
 }
 

@@ -1,9 +1,13 @@
 #include "session/export/reamed_bone.hpp"
 
+#include <algorithm>
+
 #include "core/error.hpp"
 #include "record/recorded_bone.hpp"
 #include "score/alignment.hpp"
+#include "score/component_library.hpp"
 #include "score/deviation.hpp"
+#include "score/wall_thickness.hpp"
 #include "session/simulation/find_case.hpp"
 #include "session/simulation/recorded_session.hpp"
 #include "session/simulation/recorded_setup.hpp"
@@ -14,7 +18,6 @@
 namespace ream::session {
 namespace {
 
-constexpr double implant_thickness_mm = 4.0;
 constexpr int implant_segments = 96;
 
 /// Coverage of one bone at the three moments that matter.
@@ -63,11 +66,16 @@ void compare(const score::NativeGlenoid& native_glenoid, const score::Placements
         bone.after.vertices_mm, states,
         placed({task.reamer, task.plan->depth_mm + range_mm}, *placements.planned, states.grid), native);
   }
+  const score::CoverageView coverage{states.grid, states.left};
+  const score::AchievedFace left = score::achieved_face(native_glenoid, coverage);
+  const std::vector<double> wall = score::wall_thickness_mm(native_glenoid, left, coverage);
+  if (std::any_of(wall.begin(), wall.end(), [](double mm) { return mm != score::no_surface_mm; }))
+    bone.wall = score::wall_codes(native_glenoid, wall, left, states.grid, bone.after.vertices_mm);
   if (!placements.implant) return;
   const score::PlacedFront back =
-      placed(score::implant_back(task, implant_thickness_mm), *placements.implant, states.grid);
+      placed(score::implant_back(task, score::component_of(task.plan).thickness_mm), *placements.implant,
+             states.grid);
   bone.from_implant = score::deviation_from_implant(bone.after.vertices_mm, states, back);
-  const score::AchievedFace left = score::achieved_face(native_glenoid, {states.grid, states.left});
   score::keep_face_only(native_glenoid, left, states.grid, bone.after.vertices_mm, bone.from_implant);
   compared.implant =
       shell::revolve(back.front.profile(), implant_segments).transformed(back.front_from_grid.inverse());

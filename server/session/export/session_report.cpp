@@ -90,6 +90,8 @@ std::string plan_in_words(const case_::Plan& plan) {
   if (plan.implant_radius_mm)
     words += "; implant " + (plan.implant_size.empty() ? "" : plan.implant_size + ", ") + "back radius " +
              report::shortest(*plan.implant_radius_mm) + " mm";
+  else if (!plan.implant_size.empty())
+    words += "; implant " + plan.implant_size;
   return words;
 }
 

@@ -98,6 +98,7 @@ export class FakeCase {
       version_3d_deg: version,
       inclination_3d_deg: missing.length > 0 ? null : 4.2,
       version_friedman_deg: version,
+      inclination_trigonum_deg: missing.length > 0 ? null : 5.1,
       inclination_friedman_deg: missing.length > 0 ? null : 5.1,
       subluxation_percent: 'humeral_head' in placed && version !== null ? 52 : null,
       biconcavity: null,

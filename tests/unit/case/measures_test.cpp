@@ -191,8 +191,9 @@ TEST(Measures, WhatIsMissingIsNamedAndTheRestMeasured) {
   EXPECT_TRUE(m.version_3d_rad && m.version_friedman_rad);
   const auto value = to_json(measure({}, Side::left));
   EXPECT_EQ(value.at("missing").size(), 8u);
-  for (const char* key : {"version_3d_deg", "inclination_3d_deg", "version_friedman_deg",
-                          "inclination_friedman_deg", "subluxation_percent", "biconcavity"})
+  for (const char* key :
+       {"version_3d_deg", "inclination_3d_deg", "version_friedman_deg", "inclination_trigonum_deg",
+        "inclination_friedman_deg", "subluxation_percent", "biconcavity"})
     EXPECT_TRUE(value.at(key).is_null()) << key;
   EXPECT_EQ(value.at("normal").at("version_deg").at("mean"), -1.23);
   test::expect_error(ErrorKind::invalid_input, "trigonum_mm", [] {

@@ -36,7 +36,7 @@ TEST(Advice, PutsFirstWhatFailsTheSessionThenWhatCostsMost) {
   EXPECT_EQ(advice[0].metric, "vault_breach_mm");
   EXPECT_TRUE(advice[0].decides);
   EXPECT_EQ(advice[0].words,
-            "Keep the pegs inside the bone: along this axis they come 0.30\u00a0mm through the cortex.");
+            "Keep pegs or keel inside the bone: along this axis they come 0.30\u00a0mm through the cortex.");
   EXPECT_EQ(advice[1].metric, "version_error_deg");
   EXPECT_EQ(advice[2].metric, "congruity_mm");
   EXPECT_GT(advice[1].lost_points, advice[2].lost_points);

@@ -41,6 +41,22 @@ TEST(DeviationScale, FartherIsDarkerOnEitherSide) {
     EXPECT_GT(luminance(classes[i].colour), luminance(classes[i + 1].colour));
 }
 
+TEST(WallScale, ThinnerIsDarkerAndTheThinnestIsHatched) {
+  const auto& classes = wall_classes();
+  for (size_t i = 0; i + 1 < classes.size(); ++i) {
+    EXPECT_LT(classes[i].up_to_mm, classes[i + 1].up_to_mm);
+    EXPECT_LT(luminance(classes[i].colour), luminance(classes[i + 1].colour));
+  }
+  const int8_t codes[] = {0, 8, 9, 127, score::deviation_unknown};
+  const auto colours = wall_colours(codes);
+  EXPECT_TRUE(same(colours[0], colours[1])) << "up to 2 mm";
+  EXPECT_EQ(colours[1].hatch, 255);
+  EXPECT_TRUE(same(colours[2], classes[1].colour));
+  EXPECT_TRUE(same(colours[3], classes.back().colour));
+  EXPECT_TRUE(same(colours[4], deviation_colour(score::deviation_unknown)));
+  EXPECT_NE(wall_classes_in_words().find("2 to 5 mm"), std::string::npos);
+}
+
 /// What red-green blindness leaves of a colour, roughly: its luminance and its blue against yellow.
 TEST(DeviationScale, SidesAreToldApartByBlueAlone) {
   for (const DeviationClass& each : deviation_classes()) {

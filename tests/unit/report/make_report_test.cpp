@@ -47,8 +47,8 @@ TEST(MakeReport, EveryMetricIsThereOnceWithItsSource) {
       ASSERT_GE(each.source, 1) << each.name;
       ASSERT_LE(static_cast<size_t>(each.source), report.sources.size()) << each.name;
     }
-  EXPECT_EQ(lines, score::metric_catalogue().size() - 5)
-      << "planned angles, depth, seating and plate stand beside others";
+  EXPECT_EQ(lines, score::metric_catalogue().size() - 6)
+      << "planned angles, depth, joint line, seating and plate stand beside others";
   ASSERT_EQ(report.meanings.size(), score::metric_catalogue().size());
   for (size_t i = 0; i < report.meanings.size(); ++i) {
     const score::Metric& metric = score::metric_catalogue()[i];

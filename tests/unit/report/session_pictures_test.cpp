@@ -83,6 +83,16 @@ TEST(SessionPictures, MapsShowEachSideWhereItsLabelIs) {
   }
 }
 
+TEST(SessionPictures, TheWallHasAPictureWhereItIsKnown) {
+  ReamedBone bone = plate(case_::Side::right);
+  bone.wall.assign(bone.after.vertices_mm.size(), 30);  // 7.5 mm
+  const Picture map = titled(session_pictures(bone), "Bone left behind the reamed face");
+  EXPECT_FALSE(map.is_map) << "its classes stand in its caption";
+  EXPECT_NE(map.caption.find("5 to 10 mm"), std::string::npos);
+  const auto middle = pixel(map.image, 0.45, 0.45);
+  EXPECT_GT(middle[2], middle[0] + 40) << "turquoise";
+}
+
 TEST(SessionPictures, LabelsStayInsideAndPicturesSayWhatTheyAre) {
   const auto pictures = session_pictures(plate(case_::Side::left));
   EXPECT_EQ(pictures.size(), 5u) << "no implant, no map of its gap";

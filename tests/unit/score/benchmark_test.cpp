@@ -74,7 +74,7 @@ TEST(Benchmark, EveryMetricWithAnAimIsOneOfTheCatalogue) {
   int aims = 0;
   for (const Metric& metric : metric_catalogue())
     if (metric.band.better == Better::report_only && aim_of(metric)) ++aims;
-  EXPECT_EQ(aims, 18) << "a name in the list of aims is not in the catalogue any more";
+  EXPECT_EQ(aims, 26) << "a name in the list of aims is not in the catalogue any more";
 }
 
 TEST(Benchmark, IsReachedAtTheMeanOrBetter) {

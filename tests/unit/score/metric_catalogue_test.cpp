@@ -29,7 +29,7 @@ TEST(MetricCatalogue, KeysEndWithTheirUnit) {
     std::string ending(m.unit);
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](char c) { return c == '/' || c == ' ' ? '_' : static_cast<char>(std::tolower(c)); });
-    if (ending == "%") ending = "percent";
+    if (ending.starts_with('%')) ending.replace(0, 1, "percent");
     EXPECT_TRUE(ending.empty() || std::string(m.key).ends_with("_" + ending)) << m.key;
   }
 }

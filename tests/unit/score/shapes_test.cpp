@@ -2,11 +2,12 @@
 
 #include <cmath>
 #include <random>
+#include <set>
 
 #include "core/units.hpp"
+#include "score/component_library.hpp"
 #include "score/cutting_surface.hpp"
 #include "score/sphere_fit.hpp"
-#include "score/vault_clearance.hpp"
 #include "support/expect_error.hpp"
 #include "support/random_pose.hpp"
 #include "support/seed.hpp"
@@ -99,23 +100,47 @@ TEST(DepthPlaneFit, OfALineThereIsNone) {
   EXPECT_FALSE(fit_depth_plane(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}}, 0.25));
 }
 
-TEST(Fixation, PointsLieOnPegsAndKeel) {
-  const Fixation& pegs = fixation_named("pegs");
-  double deepest = 0.0;
-  for (const Vec3& p : surface_points(pegs)) {
-    deepest = std::max(deepest, p.z());
-    bool on_a_peg = false;
-    for (const Peg& peg : pegs.pegs) {
-      const double away = std::hypot(p.x() - peg.anterior_mm, p.y() - peg.superior_mm);
-      on_a_peg = on_a_peg || (away <= 0.5 * peg.diameter_mm + 1e-9 && p.z() <= peg.length_mm);
+TEST(ComponentLibrary, PointsLieOnPegsAndKeels) {
+  std::set<std::string_view> names;
+  for (const LibraryComponent& component : component_library()) {
+    SCOPED_TRACE(component.name);
+    EXPECT_TRUE(names.insert(component.name).second);
+    EXPECT_EQ(find_component(component.name), &component);
+    EXPECT_EQ(component.thickness_mm, 4.0) << "the catalogue says so";
+    const auto parts = surface_points(component);
+    ASSERT_EQ(parts.size(), component.pegs.size() + component.keels.size());
+    for (size_t i = 0; i < component.pegs.size(); ++i) {
+      const Peg& peg = component.pegs[i];
+      double deepest = 0.0;
+      for (const Vec3& p : parts[i]) {
+        deepest = std::max(deepest, p.z());
+        EXPECT_LE(std::hypot(p.x() - peg.anterior_mm, p.y() - peg.superior_mm), 0.5 * peg.diameter_mm + 1e-9);
+      }
+      EXPECT_EQ(deepest, peg.length_mm);
     }
-    EXPECT_TRUE(on_a_peg);
+    for (size_t i = 0; i < component.keels.size(); ++i) {
+      const Keel& keel = component.keels[i];
+      double widest = 0.0, deepest = 0.0;
+      for (const Vec3& p : parts[component.pegs.size() + i]) {
+        widest = std::max(widest, std::abs(p.y()));
+        deepest = std::max(deepest, p.z());
+      }
+      EXPECT_GT(widest, 0.5 * keel.height_mm - 1.0);
+      EXPECT_LE(widest, 0.5 * keel.height_mm);
+      EXPECT_DOUBLE_EQ(deepest, keel.length_mm);
+    }
   }
-  EXPECT_EQ(deepest, 15.0);
-  double widest = 0.0;
-  for (const Vec3& p : surface_points(fixation_named("keel"))) widest = std::max(widest, std::abs(p.y()));
-  EXPECT_GT(widest, 8.0);
-  EXPECT_LE(widest, 9.0);
+}
+
+TEST(ComponentLibrary, APlanNamesItsComponent) {
+  EXPECT_EQ(component_of(std::nullopt).name, "pegged medium");
+  case_::Plan plan;
+  EXPECT_EQ(component_of(plan).name, "pegged medium");
+  plan.implant_size = "Keeled Large";
+  EXPECT_EQ(component_of(plan).name, "keeled large");
+  plan.implant_size = "M40";  // a maker's
+  EXPECT_EQ(&component_of(plan), &virtual_component());
+  EXPECT_EQ(find_component(""), nullptr);
 }
 
 }  // namespace

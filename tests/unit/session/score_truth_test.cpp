@@ -8,6 +8,7 @@
 
 #include "session/live/headless_run.hpp"
 #include "sim/step.hpp"
+#include "support/component_truth.hpp"
 #include "support/reaming_setup.hpp"
 #include "support/way_out.hpp"
 
@@ -16,10 +17,42 @@ namespace {
 
 constexpr double voxel_mm = 0.2;
 
+/// What must come out: of the reaming, and of the component that is seated in it.
+struct Truth : ReamingTruth {
+  double joint_line_mm = 0.0, joint_line_planned_mm = 0.0, joint_line_offset_mm = 0.0;
+  double lateralization_mm = 0.0;
+  double vault_distance_mm = 0.0, vault_breach_mm = 0.0;
+  double wall_least_mm = 0.0, wall_thin_mm = 0.0;
+};
+
+Truth truth_of(const RandomReaming& reaming, const std::filesystem::path& trace_csv) {
+  Truth truth{reaming_truth(reaming, trace_csv)};
+  truth.joint_line_mm = joint_line_truth_mm(reaming, truth.seated);
+  truth.joint_line_planned_mm = joint_line_truth_mm(reaming, truth.seated_as_planned);
+  truth.joint_line_offset_mm = truth.joint_line_mm - truth.joint_line_planned_mm;
+  truth.lateralization_mm = lateralization_truth_mm(reaming, truth.seated);
+  const auto of_parts = vault_truth_mm(reaming.glenoid, truth.seated, reaming.plan.implant_size);
+  truth.vault_distance_mm = *std::min_element(of_parts.begin(), of_parts.end());
+  truth.vault_breach_mm = std::max(0.0, -truth.vault_distance_mm);
+  const WallTruth wall = wall_truth(reaming, truth.seated, reaming.reamer.component_mm() - 3.0,
+                                    reamed_place_spacing_mm, truth.reamed);
+  truth.wall_least_mm = wall.least_mm;
+  truth.wall_thin_mm = wall.thin_mm;
+  return truth;
+}
+
+/// Each seed's plan names another component, or none.
+RandomReaming reaming_with_component(unsigned seed) {
+  constexpr const char* components[] = {"pegged large", "keeled large", "", "pegged small", "keeled medium"};
+  RandomReaming reaming = random_reaming(seed, voxel_mm);
+  reaming.plan.implant_size = components[seed % std::size(components)];
+  return reaming;
+}
+
 /// metrics.json of a reaming, and what must come out.
 struct Scored {
   nlohmann::json metrics;
-  ReamingTruth truth;
+  Truth truth;
 };
 
 Scored run(const RandomReaming& reaming, const TemporaryFolder& folder) {
@@ -28,39 +61,47 @@ Scored run(const RandomReaming& reaming, const TemporaryFolder& folder) {
   std::filesystem::create_directories(out);
   const std::vector<uint8_t> start = simulation.bone_case.bone.coverage;
   const session::SessionFiles::Results result = session::run_headless(simulation, start, out, false);
-  return {result.metrics, reaming_truth(reaming, out / "trace.csv")};
+  return {result.metrics, truth_of(reaming, out / "trace.csv")};
 }
 
 /// One figure of metrics.json and how far it may be from the truth.
 struct Figure {
   const char* key;
-  double ReamingTruth::*truth;
+  double Truth::*truth;
   double tolerance;       ///< in the figure's unit, or
   double relative = 0.0;  ///< as a share of the truth, or of another
-  double ReamingTruth::*relative_to = nullptr;
+  double Truth::*relative_to = nullptr;
 
-  double allowed(const ReamingTruth& true_figures) const {
+  double allowed(const Truth& true_figures) const {
     return tolerance + relative * true_figures.*(relative_to ? relative_to : truth);
   }
 };
 
 constexpr Figure figures[] = {
-    {"version_achieved_deg", &ReamingTruth::version_deg, 0.2},
-    {"inclination_achieved_deg", &ReamingTruth::inclination_deg, 0.2},
-    {"axis_error_deg", &ReamingTruth::axis_error_deg, 0.2},
-    {"version_rim_deg", &ReamingTruth::rim_version_deg, 0.5},
-    {"inclination_rim_deg", &ReamingTruth::rim_inclination_deg, 0.5},
-    {"entry_error_mm", &ReamingTruth::entry_error_mm, 0.1},
-    {"reaming_depth_mm", &ReamingTruth::depth_max_mm, 0.5 * voxel_mm},
-    {"depth_mean_mm", &ReamingTruth::depth_mean_mm, 0.5 * voxel_mm},
-    {"removed_volume_mm3", &ReamingTruth::volume_mm3, 0.0, 0.005},
-    {"seating_percent", &ReamingTruth::seating_percent, 1.0},
-    {"plate_preserved_percent", &ReamingTruth::plate_percent, 2.0},
-    {"seating_planned_percent", &ReamingTruth::seating_planned_percent, 1.0},
-    {"plate_planned_percent", &ReamingTruth::plate_planned_percent, 2.0},
-    {"overreamed_volume_mm3", &ReamingTruth::overreamed_mm3, 1.0, 0.01, &ReamingTruth::planned_mm3},
-    {"underreamed_volume_mm3", &ReamingTruth::underreamed_mm3, 1.0, 0.01, &ReamingTruth::planned_mm3},
-    {"plan_overlap_percent", &ReamingTruth::overlap_percent, 0.5},
+    {"version_achieved_deg", &Truth::version_deg, 0.2},
+    {"inclination_achieved_deg", &Truth::inclination_deg, 0.2},
+    {"axis_error_deg", &Truth::axis_error_deg, 0.2},
+    {"version_rim_deg", &Truth::rim_version_deg, 0.5},
+    {"inclination_rim_deg", &Truth::rim_inclination_deg, 0.5},
+    {"entry_error_mm", &Truth::entry_error_mm, 0.1},
+    {"reaming_depth_mm", &Truth::depth_max_mm, 0.5 * voxel_mm},
+    {"depth_mean_mm", &Truth::depth_mean_mm, 0.5 * voxel_mm},
+    {"removed_volume_mm3", &Truth::volume_mm3, 0.0, 0.005},
+    {"seating_percent", &Truth::seating_percent, 1.0},
+    {"plate_preserved_percent", &Truth::plate_percent, 2.0},
+    {"seating_planned_percent", &Truth::seating_planned_percent, 1.0},
+    {"plate_planned_percent", &Truth::plate_planned_percent, 2.0},
+    {"overreamed_volume_mm3", &Truth::overreamed_mm3, 1.0, 0.01, &Truth::planned_mm3},
+    {"underreamed_volume_mm3", &Truth::underreamed_mm3, 1.0, 0.01, &Truth::planned_mm3},
+    {"plan_overlap_percent", &Truth::overlap_percent, 0.5},
+    {"joint_line_mm", &Truth::joint_line_mm, 0.5 * voxel_mm},
+    {"joint_line_planned_mm", &Truth::joint_line_planned_mm, 0.5 * voxel_mm},
+    {"joint_line_offset_mm", &Truth::joint_line_offset_mm, 0.5 * voxel_mm},
+    {"lateralization_mm", &Truth::lateralization_mm, 0.5 * voxel_mm},
+    {"vault_distance_component_mm", &Truth::vault_distance_mm, 0.5 * voxel_mm},
+    {"vault_breach_mm", &Truth::vault_breach_mm, 0.5 * voxel_mm},
+    {"wall_thickness_least_mm", &Truth::wall_least_mm, 0.5 * voxel_mm},
+    {"wall_thickness_thin_mm", &Truth::wall_thin_mm, 0.5 * voxel_mm},
 };
 constexpr size_t figure_count = std::size(figures);
 
@@ -85,7 +126,7 @@ class ScoreTruth : public testing::TestWithParam<unsigned> {
 };
 
 TEST_P(ScoreTruth, IsWhatIsSaid) {
-  const RandomReaming reaming = random_reaming(GetParam(), voxel_mm);
+  const RandomReaming reaming = reaming_with_component(GetParam());
   SCOPED_TRACE("seed " + std::to_string(GetParam()) + ", " + reaming.plan.reamer);
   const TemporaryFolder folder;
   const auto [metrics, truth] = run(reaming, folder);

@@ -9,7 +9,7 @@ import {
   type Plane,
 } from 'three';
 
-import { paletteOf, type ScaleName } from '../state/review/deviation_scale';
+import { type MapScale, paletteOf } from '../state/review/deviation_scale';
 import type { DeviationCode } from '../wire/review_api';
 import type { SortedSurface } from '../wire/surface_worker';
 import { boneMaterial, lookOfBone } from './bone_material';
@@ -75,7 +75,7 @@ export class DeviationSurface implements BoneReplacement {
     this.unknownCode.value = code.unknown;
     this.code = code;
   }
-  setScale(scale: ScaleName): void {
+  setScale(scale: MapScale): void {
     (this.palette.image.data as Uint8Array).set(paletteOf(scale, this.code));
     this.palette.needsUpdate = true;
   }

@@ -1,6 +1,6 @@
 import { effect } from '@preact/signals';
 
-import { deviationMm } from '../state/review/deviation_scale';
+import { deviationMm, scaleOf } from '../state/review/deviation_scale';
 import { headsetMessage } from './headset_text';
 import type { ReviewSession } from '../state/review/review_session';
 import type { ReviewSettings } from '../state/review/review_settings';
@@ -87,7 +87,7 @@ export class ReviewView {
     }
     const { on } = this.painted;
     on.paint(map.deviation.bytes, map.deviation.code);
-    on.setScale(scale);
+    on.setScale(scaleOf(map.name, scale));
     this.scene.replaceBone(on);
   }
 

@@ -66,16 +66,18 @@ export const reviewText = {
   addAnnotation: 'Keep remark',
 
   surface: 'Surface',
-  mapName: { none: 'Bone', plan: 'To plan', implant: 'To implant' } as Record<MapName | 'none', string>,
+  mapName: { none: 'Bone', plan: 'To plan', implant: 'To implant', wall: 'Wall' } as Record<MapName | 'none', string>,
   mapHint: {
     none: 'The bone as it was at the moment',
     plan: 'How far the reamed surface lies from what was planned',
     implant: 'How far the reamed surface lies from the back of the implant, seated as well as it can be',
+    wall: 'How thick the bone is that is left behind the reamed surface',
   } as Record<MapName | 'none', string>,
-  map: 'Map of deviation',
+  map: 'Map of the surface',
   mapCaption: {
     plan: 'Proud: bone stands that the plan removes. Beyond, hatched: cut deeper than planned.',
     implant: 'Proud: bone would stand into the implant. Beyond, hatched: a gap behind it.',
+    wall: 'Bone left behind the reamed face, along its normal, to where the bone ends first.',
   } as Record<MapName, string>,
   mapMaking: (percent: string) => `The map is being made: ${percent} %`,
   mapAtEnd: 'The map is of the bone as the session left it; at other moments there is none.',
@@ -84,6 +86,12 @@ export const reviewText = {
   classWithin: (mm: string) => `within ${mm} mm`,
   classBetween: (from: string, to: string, side: 'proud' | 'even' | 'beyond') => `${from} to ${to} mm ${side}`,
   classOver: (mm: string, side: 'proud' | 'even' | 'beyond') => `over ${mm} mm ${side}`,
+  classWall: (fromMm: number, toMm: number) =>
+    !Number.isFinite(fromMm)
+      ? `up to ${String(toMm)} mm thick`
+      : Number.isFinite(toMm)
+        ? `${String(fromMm)} to ${String(toMm)} mm thick`
+        : `over ${String(fromMm)} mm thick`,
   classUnknown: 'nothing to compare',
   hatched: 'hatched',
   share: (percent: string) => `${percent} %`,
@@ -91,8 +99,8 @@ export const reviewText = {
   outOfRange: (mm: string, percent: string) =>
     `The map tells up to ${mm} mm; ${percent} % of it lies that far away or farther.`,
   breach: 'Breach of the vault',
-  breachNone: 'none: the component’s pegs stay within the outer cortex',
-  breachBy: (mm: string) => `the component’s pegs reach ${mm} mm through the outer cortex`,
+  breachNone: 'none: the component’s pegs or keel stay within the outer cortex',
+  breachBy: (mm: string) => `the component’s pegs or keel reach ${mm} mm through the outer cortex`,
   breachMissing: (why: string) => `not known: ${why}`,
   noMap: {
     silent: 'The map could not be loaded: the simulator does not answer. Choose it again when it does.',
@@ -121,6 +129,7 @@ export const reviewText = {
   mapAt: {
     plan: (number: number) => `Off the plan at ${number}`,
     implant: (number: number) => `Off the implant at ${number}`,
+    wall: (number: number) => `Wall at ${number}`,
   },
 
   score: 'Score',
@@ -220,7 +229,7 @@ export const reviewText = {
     ['K', 'play and rest'],
     [', and .', 'event before, next event'],
     ['B', 'before and after'],
-    ['D', 'bone, map against plan, map against implant'],
+    ['D', 'bone, map against plan, against implant, of the wall'],
     ['E', 'measure; Enter at the middle of the picture'],
     ['T', 'CT slices'],
     ['V C X', 'surgeon’s eye, cut-away, see-through'],

@@ -2,7 +2,8 @@ import { fetchOnceReady, waitForJob } from './job_wait';
 import { RestClient } from './rest_client';
 import type { Annotation, Score, Session } from './rest_types';
 
-export type MapName = 'plan' | 'implant';
+export const mapNames = ['plan', 'implant', 'wall'] as const;
+export type MapName = (typeof mapNames)[number];
 export const exportFormats = ['html', 'pdf', 'csv', 'stl', 'ply', 'glb'] as const;
 export type ExportFormat = (typeof exportFormats)[number];
 
@@ -16,7 +17,7 @@ export interface DeviationCode {
   unknown: number;
 }
 
-/** How far each vertex of the surface that a session left lies from something, a byte a vertex. */
+/** How far each vertex of the surface that a session left lies from something, or how thick the bone behind it is; a byte a vertex. */
 export interface DeviationBytes {
   bytes: Int8Array<ArrayBuffer>;
   code: DeviationCode;

@@ -45,9 +45,9 @@ function Figures({ measures }: { measures: Measures }) {
       <Block title={caseText.inclination} normal={normalText(normal.inclination_deg, inclinationText)}>
         <Row name={caseText.method3d} value={inclinationText(measures.inclination_3d_deg)} testId="inclination-3d" />
         <Row
-          name={caseText.methodFriedman}
-          value={inclinationText(measures.inclination_friedman_deg)}
-          testId="inclination-friedman"
+          name={caseText.methodTrigonum}
+          value={inclinationText(measures.inclination_trigonum_deg)}
+          testId="inclination-trigonum"
         />
       </Block>
       <Block title={caseText.subluxation} normal={normalText(normal.subluxation_percent, percentText)}>

@@ -10,6 +10,17 @@ import { CheckField, NumberBox, NumberField, Message, SelectField } from '../com
 import { PlanDraftPanel } from './plan_draft_panel';
 import { Button } from '../common/button';
 
+/** Components whose pegs or keels scoring knows. */
+const implantNames = [
+  'pegged small',
+  'pegged medium',
+  'pegged large',
+  'keeled small',
+  'keeled medium',
+  'keeled large',
+] as const;
+type ImplantName = (typeof implantNames)[number];
+
 /** Targets of the plan (null: the server chooses); they last as long as the page is open. */
 export class PlanTargetsStore {
   readonly versionDeg = signal<number | null>(0);
@@ -18,6 +29,8 @@ export class PlanTargetsStore {
   readonly depthMm = signal(2);
   /** Null: as the reamer. */
   readonly implantRadiusMm = signal<number | null>(null);
+  /** Whose pegs or keel are scored; null: usual pegs. */
+  readonly implant = signal<ImplantName | null>(null);
   /** A name in the library; null: the one that fits the implant. */
   readonly reamer = signal<string | null>(null);
   /** Null: as the reamer needs it. */
@@ -31,6 +44,7 @@ export class PlanTargetsStore {
       inclination_deg: this.inclinationDeg.value,
       depth_mm: this.depthMm.value,
       implant_radius_mm: this.implantRadiusMm.value,
+      implant_size: this.implant.value,
       reamer: this.reamer.value,
       guide: this.guide.value,
       pilot_diameter_mm: pilot?.diameterMm ?? null,
@@ -82,6 +96,13 @@ function TargetFields({ targets, reamers }: { targets: PlanTargetsStore; reamers
         value={targets.implantRadiusMm.value}
         {...{ low: 20, high: 60, usual: 32, testId: 'implant-radius' }}
         onChange={(value) => (targets.implantRadiusMm.value = value)}
+      />
+      <SelectField<ImplantName | ''>
+        label={caseText.implant}
+        value={targets.implant.value ?? ''}
+        options={[['', caseText.implantUsual], ...implantNames.map((name) => [name, name] as const)]}
+        testId="implant"
+        onChange={(name) => (targets.implant.value = name === '' ? null : name)}
       />
       <ReamerFields targets={targets} reamers={reamers} />
       <PilotFields targets={targets} />

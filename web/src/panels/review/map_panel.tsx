@@ -6,13 +6,15 @@ import {
   deviationClasses,
   type DeviationClass,
   deviationShares,
+  type MapScale,
   type ScaleName,
+  scaleOf,
   scaleBoundsMm,
   unknownColour,
 } from '../../state/review/deviation_scale';
 import type { MapState } from '../../state/review/surface_map';
 import { breachText } from '../../state/review/score_text';
-import type { MapName } from '../../wire/review_api';
+import { type MapName, mapNames } from '../../wire/review_api';
 import { fixed } from '../../text/format';
 
 const scales = Object.keys(scaleBoundsMm) as ScaleName[];
@@ -30,12 +32,16 @@ export function MapPanel({ workspace }: { workspace: ReviewWorkspace }) {
         <h2 id="map-title">{reviewText.map}</h2>
         <ScaleChoice scale={workspace.settings.scale} />
       </div>
-      {[...new Set<MapName>(wanted)].map((name) => (
-        <p key={name} class="soft">
-          <strong>{reviewText.mapName[name]}.</strong> {reviewText.mapCaption[name]}
-        </p>
+      {mapNames
+        .filter((name) => wanted.includes(name))
+        .map((name) => (
+          <p key={name} class="soft">
+            <strong>{reviewText.mapName[name]}.</strong> {reviewText.mapCaption[name]}
+          </p>
+        ))}
+      {[...new Set(wanted.map((name) => scaleOf(name, scale)))].map((each) => (
+        <Legend key={each} scale={each} maps={maps.map((map) => (map?.scale === each ? map : null))} />
       ))}
-      <Legend scale={scale} maps={maps} />
       {panes.map((pane, i) => (
         <SurfaceFacts key={pane.session.id + String(i)} pane={pane} map={maps[i] ?? null} place={i} of={panes.length} />
       ))}
@@ -63,8 +69,8 @@ const wantedMap = (state: MapState): MapName | null =>
 
 type ReadyMap = ReturnType<typeof readyMap>;
 
-/** The classes of deviation from the proudest down, and the share of each surface that lies in them. */
-function Legend({ scale, maps }: { scale: ScaleName; maps: readonly ReadyMap[] }) {
+/** The classes of deviation from the proudest down, of a wall from the thickest down, and the share of each surface that lies in them. */
+function Legend({ scale, maps }: { scale: MapScale; maps: readonly ReadyMap[] }) {
   return (
     <table class="legend" data-testid="legend">
       {maps.length > 1 && (
@@ -133,13 +139,15 @@ function SurfaceFacts({ pane, map, place, of }: { pane: Pane; map: ReadyMap; pla
   );
 }
 
-function readyMap(state: MapState, scale: ScaleName) {
+function readyMap(state: MapState, chosen: ScaleName) {
   if (state.kind !== 'ready') return null;
+  const scale = scaleOf(state.name, chosen);
   const { bytes, code } = state.deviation;
-  return { ...deviationShares(bytes, scale, code), rangeMm: code.rangeMm };
+  return { ...deviationShares(bytes, scale, code), scale, rangeMm: code.rangeMm };
 }
 
 function classText({ fromMm, toMm, side }: DeviationClass): string {
+  if (side === 'wall') return reviewText.classWall(fromMm, toMm);
   const [near, far] = side === 'proud' ? [-toMm, -fromMm] : [fromMm, toMm];
   const mm = (value: number) => String(value);
   if (side === 'even') return reviewText.classWithin(mm(toMm));

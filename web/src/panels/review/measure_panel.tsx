@@ -76,7 +76,7 @@ function rowsOf(places: readonly MeasuredPlace[], plan: PlanFrame): Row[] {
     rows.push([reviewText.depthOf(i + 1), mm(depthMm(at, plan)), reviewText.depthHint]);
     if (deviation === null) return;
     const off = fixed(Math.abs(deviation.mm), 2);
-    const side = deviation.mm === 0 ? 'even' : deviation.mm < 0 ? 'proud' : 'beyond';
+    const side = deviation.to === 'wall' || deviation.mm === 0 ? 'even' : deviation.mm < 0 ? 'proud' : 'beyond';
     rows.push([reviewText.mapAt[deviation.to](i + 1), reviewText.deviationHere(off, side)]);
   });
   return rows;

@@ -1,8 +1,9 @@
 import { liveText } from '../../text/live_text';
 import { reviewText } from '../../text/review_text';
 import type { ReviewSession } from '../../state/review/review_session';
+import { mapNames } from '../../wire/review_api';
 
-const maps = [null, 'plan', 'implant'] as const;
+const maps = [null, ...mapNames];
 
 /** What of a session is seen: before or after, bone or map. */
 export function MomentBar({ session }: { session: ReviewSession }) {

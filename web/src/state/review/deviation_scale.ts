@@ -1,4 +1,4 @@
-import type { DeviationCode } from '../../wire/review_api';
+import type { DeviationCode, MapName } from '../../wire/review_api';
 
 export type ScaleName = 'fine' | 'report' | 'coarse';
 /** Ends of the classes on either side of what is as it should be, mm; the report has the middle ones. */
@@ -8,7 +8,11 @@ export const scaleBoundsMm: Record<ScaleName, readonly [number, number, number]>
   coarse: [0.5, 1, 2],
 };
 
-export type Side = 'proud' | 'even' | 'beyond';
+/** What a map is painted by: deviations by the scale that is chosen, thickness of the wall by its own. */
+export type MapScale = ScaleName | 'wall';
+export const scaleOf = (map: MapName, chosen: ScaleName): MapScale => (map === 'wall' ? 'wall' : chosen);
+
+export type Side = 'proud' | 'even' | 'beyond' | 'wall';
 
 /** Deviations that look the same: more than `fromMm` up to `toMm`. */
 export interface DeviationClass {
@@ -36,11 +40,21 @@ const beyondColours = [
   [153, 142, 195],
   [84, 39, 136],
 ] as const;
+/** The report's colours of a wall, ColorBrewer's YlGnBu: the thinner the darker. Ends of the classes, mm. */
+const wallColours = [
+  [8, 29, 88],
+  [34, 94, 168],
+  [65, 182, 196],
+  [161, 218, 180],
+  [255, 255, 204],
+] as const;
+const wallBoundsMm = [2, 5, 10, 15];
 /** Bone with nothing to compare. */
 export const unknownColour = [189, 183, 172] as const;
 
-/** From what stands proudest to what is cut deepest. */
-export function deviationClasses(scale: ScaleName): DeviationClass[] {
+/** From what stands proudest to what is cut deepest; of a wall from the thinnest, which is hatched. */
+export function deviationClasses(scale: MapScale): DeviationClass[] {
+  if (scale === 'wall') return wallClasses();
   const [a, b, c] = scaleBoundsMm[scale];
   const ends = [-Infinity, -c, -b, -a, a, b, c, Infinity];
   const colours = [...proudColours, evenColour, ...beyondColours];
@@ -50,6 +64,17 @@ export function deviationClasses(scale: ScaleName): DeviationClass[] {
     side: i < 3 ? 'proud' : i === 3 ? 'even' : 'beyond',
     colour,
     hatched: i > 3,
+  }));
+}
+
+function wallClasses(): DeviationClass[] {
+  const ends = [-Infinity, ...wallBoundsMm, Infinity];
+  return wallColours.map((colour, i) => ({
+    fromMm: ends[i] ?? -Infinity,
+    toMm: ends[i + 1] ?? Infinity,
+    side: 'wall',
+    colour,
+    hatched: i === 0,
   }));
 }
 
@@ -65,7 +90,7 @@ export function classOf(mm: number, classes: readonly DeviationClass[]): Deviati
 }
 
 /** RGBA of all bytes, at byte + 128; the last of the four is 255 where it is hatched, 0 where it is not. */
-export function paletteOf(scale: ScaleName, code: DeviationCode): Uint8Array<ArrayBuffer> {
+export function paletteOf(scale: MapScale, code: DeviationCode): Uint8Array<ArrayBuffer> {
   const classes = deviationClasses(scale);
   const palette = new Uint8Array(256 * 4);
   for (let byte = -128; byte < 128; ++byte) {
@@ -84,7 +109,7 @@ export interface DeviationShares {
   beyondRange: number;
 }
 
-export function deviationShares(bytes: Int8Array, scale: ScaleName, code: DeviationCode): DeviationShares {
+export function deviationShares(bytes: Int8Array, scale: MapScale, code: DeviationCode): DeviationShares {
   const counts = new Uint32Array(256);
   for (const byte of bytes) counts[byte + 128] = (counts[byte + 128] ?? 0) + 1;
   const classes = deviationClasses(scale);

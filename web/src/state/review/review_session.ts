@@ -2,7 +2,7 @@ import { computed, effect, signal } from '@preact/signals';
 
 import type { Api } from '../../wire/api';
 import { ApiError, messageOf } from '../../wire/rest';
-import type { MapName, ReviewApi } from '../../wire/review_api';
+import { type MapName, mapNames, type ReviewApi } from '../../wire/review_api';
 import type { StreamSocket } from '../../wire/stream_socket';
 import type { SortedSurface } from '../../wire/surface_worker';
 import { Remote } from '../remote';
@@ -153,7 +153,7 @@ export class ReviewSession {
   }
   nextMap(): void {
     const { name } = this.map;
-    this.chooseMap(name === null ? 'plan' : name === 'plan' ? 'implant' : null);
+    this.chooseMap(mapNames[name === null ? 0 : mapNames.indexOf(name) + 1] ?? null);
   }
 
   measureAt(place: MeasuredPlace | null): void {

@@ -6,6 +6,7 @@ import {
   deviationMm,
   deviationShares,
   paletteOf,
+  scaleOf,
   type ScaleName,
   scaleBoundsMm,
   unknownColour,
@@ -72,6 +73,20 @@ describe('scale of deviations', () => {
     }
     expect(deviationMm(-128, code)).toBeNull();
     expect(deviationMm(64, code)).toBe(2);
+  });
+
+  it('paints a wall by its own classes, the thinner the darker', () => {
+    expect(scaleOf('wall', 'fine')).toBe('wall');
+    expect(scaleOf('plan', 'fine')).toBe('fine');
+    const classes = deviationClasses('wall');
+    classes.slice(1).forEach(({ fromMm, colour }, i) => {
+      expect(fromMm).toBe(classes[i]?.toMm);
+      expect(luma(colour)).toBeGreaterThan(luma(classes[i]?.colour ?? []));
+    });
+    expect(classes.map(({ hatched }) => hatched)).toEqual([true, false, false, false, false]);
+    const steps: DeviationCode = { stepMm: 0.25, rangeMm: 31.75, unknown: -128 };
+    const { classes: shares } = deviationShares(Int8Array.from([0, 8, 9, 20, 127, -128]), 'wall', steps);
+    expect(shares).toEqual([2 / 5, 2 / 5, 0, 0, 1 / 5]);
   });
 
   it('takes the byte for nothing to compare from the server', () => {

@@ -123,11 +123,14 @@ describe('session under review', () => {
     await settle();
     expect(session.mapShown.value?.name).toBe('implant');
     session.nextMap();
+    await settle();
+    expect(session.mapShown.value?.name).toBe('wall');
+    session.nextMap();
     expect(session.mapShown.value).toBeNull();
     session.chooseMap('plan');
     await settle();
     // What was fetched is kept.
-    expect(requests.filter((what) => what !== 'trace 17')).toEqual(['plan', 'surface', 'implant']);
+    expect(requests.filter((what) => what !== 'trace 17')).toEqual(['plan', 'surface', 'implant', 'wall']);
     session.dispose();
   });
 
