@@ -228,7 +228,8 @@ constexpr Metric catalogue[] = {
      "Share of the component's footprint in which at least half of the plate is left along the planned axis; "
      "the plate is found by density, or taken as 1.9 mm thick where density does not show it.",
      "readbyqxmd 29974217: removal increases micromotion (p = 0.043)", published,
-     "within 2 points of the truth in 100 seeded reamings of formula bones; limits are engineering judgement",
+     "within 2 points of the bone as it was imported in 100 seeded reamings, of the bone that was scanned "
+     "within 10; limits are engineering judgement",
      bone, reamed_bone, percent_range, at_least(80.0, 60.0), no_aim, number, "plate_planned_percent"},
     {"plate_planned_percent", "Subchondral plate planned", "%",
      "Share of plate preserved if the plan is carried out exactly.", no_limits, judgement,
@@ -241,8 +242,9 @@ constexpr Metric catalogue[] = {
      limits_ours, bone, reamed_bone, percent_range, at_most(10.0, 40.0)},
     {"plate_thickness_mm", "Subchondral plate thickness", "mm",
      "Median thickness of the plate under the native face, along the planned axis.",
-     "Frich 1998: 1.9 mm (1.2 to 2.9)", published, "as sharp as the scan", bone, untouched_bone, not_negative,
-     only_reported},
+     "Frich 1998: 1.9 mm (1.2 to 2.9)", published,
+     "to 0.1 mm from 1.9 mm on; a plate thinner than the scan's blur reads thicker, 0.6 mm as 0.9 to 1.0",
+     bone, untouched_bone, not_negative, only_reported},
     {"vault_distance_mm", "Vault distance, pegs", "mm",
      "Least distance of three virtual pegs on the seated component from the outer cortex of the vault; "
      "negative beyond it.",

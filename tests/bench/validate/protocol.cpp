@@ -10,14 +10,14 @@ namespace {
 constexpr double longest_s = 120.0;
 constexpr double start_above_mm = 0.3;
 
-device::Script robot_script(double start_mm, double depth_mm, double factor) {
+device::Script robot_script(double start_mm, double depth_mm, double factor, double force_n) {
   device::Script script;
   script.kind = device::ScriptKind::robot;
   script.device_profile = "ideal-admittance";
   script.duration_s = longest_s;
   script.specimen_factor = factor;
   script.robot.start_mm = Vec3(0, 0, start_mm - start_above_mm);
-  script.robot.force_n = published_thrust_n;
+  script.robot.force_n = force_n;
   script.robot.ramp_s = protocol_ramp_s;
   script.robot.depth_mm = depth_mm;
   return script;
@@ -41,7 +41,7 @@ void take_cortical_away(voxel::BoneModel& bone) {
     if (voxel::density_g_cc(bone.density[i]) >= bone.cortical_threshold_g_cc) bone.coverage[i] = 0;
 }
 
-Phase phase_of(const sim::Model& model, const std::vector<record::TickReport>& reports) {
+Phase phase_of(const sim::Model& model, const std::vector<record::TickReport>& reports, double force_n) {
   size_t touch = 0, deepest = 0;
   while (touch < reports.size() && !reports[touch].engaged) ++touch;
   Phase phase;
@@ -52,7 +52,7 @@ Phase phase_of(const sim::Model& model, const std::vector<record::TickReport>& r
     phase.ticks.push_back({reports[i].thrust_n, apex_mm(model, reports[i]) - touched_mm});
 
   std::vector<double> held_n;
-  const double full_n = 0.999 * published_thrust_n, most_n = 0.9 * published_thrust_n;
+  const double full_n = 0.999 * force_n, most_n = 0.9 * force_n;
   const ProtocolTick *first = nullptr, *last = nullptr, *held_from = nullptr;
   for (const ProtocolTick& tick : phase.ticks) {
     if (!first && tick.thrust_n >= force::start_threshold_n) first = &tick;
@@ -74,21 +74,23 @@ Phase run_phase(voxel::BoneModel& bone, const device::Script& script) {
   test::SmallRun run(std::move(bone), plan, slab_reamer, script);
   const auto reports = run.run();
   bone = run.bone;
-  return phase_of(run.model, reports);
+  return phase_of(run.model, reports, script.robot.force_n);
 }
 
 }  // namespace
 
-SpecimenRun run_protocol(size_t index) {
+SpecimenRun run_protocol(size_t index, const PhaseForces& forces) {
   const Specimen &cortical = published_cortical.specimens[index],
                  &cancellous = published_cancellous.specimens[index];
   voxel::BoneModel bone = layered_slab(cortical.density_g_cc, cancellous.density_g_cc);
   SpecimenRun run;
-  run.cortical =
-      run_phase(bone, robot_script(0.0, cortical_depth_mm, specimen_factor(published_cortical, cortical)));
+  run.cortical = run_phase(
+      bone,
+      robot_script(0.0, cortical_depth_mm, specimen_factor(published_cortical, cortical), forces.cortical_n));
   take_cortical_away(bone);
-  run.cancellous = run_phase(bone, robot_script(cortical_layer_mm, cancellous_depth_mm,
-                                                specimen_factor(published_cancellous, cancellous)));
+  run.cancellous =
+      run_phase(bone, robot_script(cortical_layer_mm, cancellous_depth_mm,
+                                   specimen_factor(published_cancellous, cancellous), forces.cancellous_n));
   return run;
 }
 

@@ -25,7 +25,7 @@ struct Phase {
   double held_thrust_n = 0.0;  ///< mean while the full force is held
   double held_feed_mm_s = 0.0;
   /// Thrust gained per mm of the tool's advance while thrust first rises from the start threshold to 90 % of
-  /// 52 N.
+  /// the full force.
   double stiffness_n_mm = 0.0;
 };
 
@@ -33,8 +33,13 @@ struct SpecimenRun {
   Phase cortical, cancellous;
 };
 
+/// What the robot presses with while it holds its force.
+struct PhaseForces {
+  double cortical_n = published_thrust_n, cancellous_n = published_thrust_n;
+};
+
 /// Both phases of specimen `index` of table 5.1 on a slab with a cortical layer, with its own densities and
 /// specimen factors, through the robot and the real tick.
-SpecimenRun run_protocol(size_t index);
+SpecimenRun run_protocol(size_t index, const PhaseForces& forces = {});
 
 }  // namespace ream::bench

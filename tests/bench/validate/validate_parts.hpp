@@ -13,10 +13,19 @@ std::vector<Row> feed_rows(const Options& options, Plots& plots);
 std::vector<Row> steady_rows(const Options& options);
 /// The experiments' protocol on layered slabs: figures 5.2 and 5.3.
 std::vector<Row> protocol_rows(const Options& options, Plots& plots);
+/// The same with a robot whose force scatters as the published one did, eight times over.
+std::vector<Row> scatter_rows(const Options& options);
 /// The model that a session has unless it says otherwise, with the thesis' reamer and with flat punches.
 std::vector<Row> edge_rows(const Options& options);
 /// A minute of each bone's vibration: table 5.2 and figures 5.6 to 5.9.
 std::vector<Row> vibration_rows(const Options& options, Plots& plots);
+
+/// Density and subchondral plate through scans of a glenoid that is known by formulas, of coarse voxels and
+/// of fine ones.
+std::vector<Row> scan_rows(const Options& options);
+std::vector<Row> fine_scan_rows(const Options& options);
+/// Version and inclination by landmarks that are found on scanned scapulae.
+std::vector<Row> version_rows(const Options& options);
 
 /// What force and motion cost the tick, beside contact and removal.
 std::vector<Row> force_cost_rows();
