@@ -26,13 +26,13 @@ struct SessionRequest {
   std::string trainee = {};            ///< the same for people
   std::string study = {};              ///< id of the study that it belongs to; empty: none
   std::string participant = {};        ///< code under which the study knows the trainee
-  std::string phase = {};              ///< what it is for in the study's design (study_design.hpp); may be empty
-  std::string title = {};              ///< what people call it; may be empty
-  std::string reset_of = {};           ///< session that this one is another attempt of; empty: none
-  int attempt = 1;                     ///< 2 after the first reset, and so on
-  std::string followed_by = {};        ///< session that went on from intact bone; empty: none
-  bool keep = false;                   ///< never deleted by the rules of retention
-  bool theatre = false;                ///< nothing but the bone is shown while reaming
+  std::string phase = {};        ///< what it is for in the study's design (study_design.hpp); may be empty
+  std::string title = {};        ///< what people call it; may be empty
+  std::string reset_of = {};     ///< session that this one is another attempt of; empty: none
+  int attempt = 1;               ///< 2 after the first reset, and so on
+  std::string followed_by = {};  ///< session that went on from intact bone; empty: none
+  bool keep = false;             ///< never deleted by the rules of retention
+  bool theatre = false;          ///< nothing but the bone is shown while reaming
 };
 
 /// How the session's device is doing.

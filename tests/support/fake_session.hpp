@@ -92,6 +92,7 @@ class FakeSession final : public session::RunningSession {
   void set(SessionState state, const std::string& fault = {}) {
     const std::lock_guard lock(mutex_);
     status_.state = state;
+    if (state == SessionState::running && status_.tick == 0) status_.tick = 1;  // one that has run
     status_.held &= is_live(state);
     status_.fault = fault;
   }
