@@ -59,6 +59,9 @@ void take_study(const Services& services, const net::Caller& caller, session::Se
   if (wanted.study.empty()) {
     if (!wanted.participant.empty())
       throw net::RequestError(422, "'participant' needs 'study'", {{"#/participant", "needs a study"}});
+    if (wanted.case_id.empty())
+      throw net::RequestError(422, "'case' is missing; only a study knows which case is next",
+                              {{"#/case", "is missing"}});
     return;
   }
   if (!wanted.device.empty() || !wanted.script.empty() || !wanted.device_profile.empty() ||

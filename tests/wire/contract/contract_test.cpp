@@ -266,7 +266,9 @@ TEST_F(ServerContractTest, TakesExactlyTheBodiesThatTheSchemaTakes) {
                            R"({"case": "planned", "device": "network", "device_profile": ""})",
                            R"({"case": "planned", "device_profile": 3})",
                            R"({"case": "planned", "script": "demo", "Case": "x"})"}) {
-    const bool fits = faults(schema, json::parse(body)).empty();
+    const json wanted = json::parse(body);
+    // The schema leaves the case out for studies, which know it.
+    const bool fits = faults(schema, wanted).empty() && wanted.contains("case");
     EXPECT_EQ(post(all, body).status, fits ? 201 : 422) << body;
   }
 }

@@ -120,10 +120,9 @@ class StudyContractTest : public AccessTest {
 
   /// A session of Tom's in the study that has ended; its id.
   std::string trained() {
-    const std::string sessions = "/api/v1/sessions";
-    const std::string session = made(tom, sessions, json{{"study", id}}.dump()).at("id");
-    EXPECT_EQ(request("POST", sessions + "/" + session + "/start", tom).status, 200);
-    EXPECT_EQ(request("POST", sessions + "/" + session + "/stop", tom).status, 200);
+    const std::string session = made(tom, all, json{{"study", id}}.dump()).at("id");
+    EXPECT_EQ(request("POST", all + "/" + session + "/start", tom).status, 200);
+    EXPECT_EQ(request("POST", all + "/" + session + "/stop", tom).status, 200);
     return session;
   }
 
@@ -140,12 +139,12 @@ class StudyContractTest : public AccessTest {
     expect("GET", pattern, here, 401);
     expect("GET", pattern, here, 403, tom);
     expect("GET", pattern, studies + "/nothing/raters", 404, ines);
-    const std::string one = pattern + "/{label}";
+    const std::string rater = pattern + "/{label}";
     made(anna, here, json{{"user_id", ines_id}}.dump());
-    expect("DELETE", one, here + "/R2", 401);
-    expect("DELETE", one, here + "/R2", 403, ines);
-    expect("DELETE", one, here + "/R2", 204, anna);
-    expect("DELETE", one, here + "/R2", 404, anna);
+    expect("DELETE", rater, here + "/R2", 401);
+    expect("DELETE", rater, here + "/R2", 403, ines);
+    expect("DELETE", rater, here + "/R2", 204, anna);
+    expect("DELETE", rater, here + "/R2", 404, anna);
   }
 
   void rating() {
@@ -158,18 +157,21 @@ class StudyContractTest : public AccessTest {
     expect("GET", pattern, here, 404, ines);
     const json queue = json::parse(request("GET", here, ivo).body).at("queue");
     ASSERT_EQ(queue.size(), 1u);
-    const std::string one = pattern + "/{key}", key = here + "/" + queue[0].at("key").get<std::string>();
+    const std::string place = pattern + "/{key}", key = here + "/" + queue[0].at("key").get<std::string>();
     rating_key = key;
     json answers = json::object();
     for (const auto& item : study::default_rating_form().items)
       if (item.required) answers[item.id] = item.options.empty() ? json(3) : json(item.options[0].id);
-    refused_bodies("PUT", one, key, ivo, answers.dump(), R"({"respect_for_bone": 6})");
-    expect("PUT", one, key, 403, tom, answers.dump());
-    expect("PUT", one, here + "/0123456789abcdef", 404, ivo, answers.dump());
-    expect("PUT", one, key, 200, ivo, answers.dump());
+    refused_bodies("PUT", place, key, ivo, answers.dump(), R"({"respect_for_bone": 6})");
+    expect("PUT", place, key, 403, tom, answers.dump());
+    expect("PUT", place, here + "/0123456789abcdef", 404, ivo, answers.dump());
+    expect("PUT", place, key, 200, ivo, answers.dump());
     rating_answers = answers.dump();
-    const std::string replay = one + "/replay";
+    const std::string replay = place + "/replay";
     expect("POST", replay, key + "/replay", 201, ivo);
+    engine->refuse_replay = [] { throw Error(ErrorKind::invalid_input, "recording.ream is damaged"); };
+    expect("POST", replay, key + "/replay", 422, ivo);
+    engine->refuse_replay = [] {};
     expect("POST", replay, key + "/replay", 401);
     expect("POST", replay, key + "/replay", 403, tom);
     expect("POST", replay, here + "/0123456789abcdef/replay", 404, ivo);
