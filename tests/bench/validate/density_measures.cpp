@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bench/validate/statistics.hpp"
+#include "voxel/solid_cells.hpp"
 
 namespace ream::bench {
 namespace {
