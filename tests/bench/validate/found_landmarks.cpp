@@ -8,6 +8,7 @@
 #include "bench/validate/published_density.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "voxel/solid_cells.hpp"
 
 namespace ream::bench {
 namespace {
