@@ -34,9 +34,8 @@ export function RatingPage({ api, studyId }: Parts) {
     void study.read();
     void queue.read();
   }, [study, queue]);
-  const list = queue.value.value;
-  const at = place.value ?? Math.max(list?.findIndex((one) => one.answers === null) ?? 0, 0);
-  const chosen = list?.[at];
+  const at = place.value ?? firstUnrated(queue.value.value);
+  const chosen = queue.value.value?.[at];
   return (
     <div class="page review-page rating-page">
       <PageHeader here="rating" />
@@ -52,6 +51,9 @@ export function RatingPage({ api, studyId }: Parts) {
     </div>
   );
 }
+
+const firstUnrated = (queue: readonly QueuedRating[] | null) =>
+  Math.max(queue?.findIndex((one) => one.answers === null) ?? 0, 0);
 
 interface PanelParts extends Parts {
   study: Remote<Study>;

@@ -91,14 +91,17 @@ function About({ api, study, studies, mayRun, empty, removed }: AboutParts) {
         {mayRun && <StudyStatePanel {...{ api, study, studies, empty }} onRemoved={removed} />}
       </div>
       {study.description !== '' && <p class="study-about">{study.description}</p>}
-      <p class="soft">
-        {studyText.cases}: {study.cases.join(', ')}
-        {study.device !== null && ` · ${studyText.device}: ${deviceText(study.device)}`}
-        {study.questionnaire && ` · ${studyText.questionnaire}: ${study.questionnaire.title}`}
-        {study.design && ` · ${studyText.arms}: ${study.design.arms.map((arm) => arm.name).join(', ')}`}
-      </p>
+      <p class="soft">{factsOf(study).join(' · ')}</p>
     </>
   );
+}
+
+function factsOf(study: Study): string[] {
+  const facts = [`${studyText.cases}: ${study.cases.join(', ')}`];
+  if (study.device !== null) facts.push(`${studyText.device}: ${deviceText(study.device)}`);
+  if (study.questionnaire) facts.push(`${studyText.questionnaire}: ${study.questionnaire.title}`);
+  if (study.design) facts.push(`${studyText.arms}: ${study.design.arms.map((arm) => arm.name).join(', ')}`);
+  return facts;
 }
 
 function deviceText(name: string): string {

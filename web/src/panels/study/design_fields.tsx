@@ -60,7 +60,7 @@ function Arms({ draft }: { draft: DesignDraft }) {
       <legend>{studyText.arms}</legend>
       <p class="soft">{studyText.armsHint}</p>
       {arms.map((arm, i) => (
-        <ArmFields key={i} {...{ draft, arm, place: i, only: arms.length === 1 }} />
+        <ArmFields key={i} {...{ draft, arm, place: i, number: i + 1, only: arms.length === 1 }} />
       ))}
       {arms.length < maxArms && (
         <Button testId="add-arm" onClick={() => draft.add()}>
@@ -75,11 +75,12 @@ interface ArmParts {
   draft: DesignDraft;
   arm: ArmDraft;
   place: number;
+  /** For people: from 1. */
+  number: number;
   only: boolean;
 }
 
-function ArmFields({ draft, arm, place, only }: ArmParts) {
-  const number = place + 1;
+function ArmFields({ draft, arm, place, number, only }: ArmParts) {
   return (
     <div class="content-form" role="group" aria-label={studyText.armNumber(number)}>
       <TextLine

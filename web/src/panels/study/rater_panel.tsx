@@ -76,8 +76,7 @@ function Row({ api, study, raters, rater }: RaterParts & { rater: Rater }) {
             label={studyText.removeRater}
             describe={studyText.removeRaterOf(rater.label)}
             question={studyText.removeRaterConfirm(rater.label)}
-            yes={studyText.removeRater}
-            no={studyText.keep}
+            {...{ yes: studyText.removeRater, no: studyText.keep }}
             testId={`remove-rater-${rater.label}`}
             disabled={raters.busy.value}
             onYes={() => void raters.act(() => api.removeRater(study.id, rater.label))}
