@@ -1,11 +1,13 @@
 #include "access/secret.hpp"
 
 #include <sodium.h>
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/hash.hpp"
 
 namespace ream::access {
 namespace {
@@ -67,6 +69,27 @@ bool equal_in_constant_time(std::string_view a, std::string_view b) {
 void require_sodium() {
   static const bool ready = sodium_init() >= 0;
   if (!ready) throw Error(ErrorKind::unavailable, "libsodium cannot be used on this machine");
+}
+
+std::string random_key() {
+  require_sodium();
+  std::array<unsigned char, crypto_generichash_KEYBYTES> bytes{};
+  randombytes_buf(bytes.data(), bytes.size());
+  std::string key;
+  for (const unsigned char byte : bytes) key += to_hex(byte).substr(14);
+  return key;
+}
+
+std::string keyed_digest(const std::string& key, const std::string& text) {
+  require_sodium();
+  std::array<unsigned char, sizeof(uint64_t)> hash{};
+  std::array<unsigned char, crypto_generichash_BYTES> whole{};
+  crypto_generichash(whole.data(), whole.size(), reinterpret_cast<const unsigned char*>(text.data()),
+                     text.size(), reinterpret_cast<const unsigned char*>(key.data()), key.size());
+  std::copy_n(whole.begin(), hash.size(), hash.begin());
+  std::string digits;
+  for (const unsigned char byte : hash) digits += to_hex(byte).substr(14);
+  return digits;
 }
 
 std::string random_id() {

@@ -57,6 +57,13 @@ std::string fingerprint_of(const std::string& text);
 /// does not tell it.
 std::string csrf_token_of(const Secret& cookie);
 
+/// 256 bits at random, as 64 hex digits.
+std::string random_key();
+
+/// 16 hex digits of BLAKE2b of `text` under a key of random_key(): who does not have the key learns nothing
+/// of it from any number of them, and cannot tell which text one is of.
+std::string keyed_digest(const std::string& key, const std::string& text);
+
 /// Ten letters and digits at random, without those that are easily taken for one another.
 std::string random_id();
 

@@ -72,12 +72,17 @@ Visitor Authorizer::visitor(const net::Request& request) const {
 void Authorizer::require_sight(const net::Request& request, const Route& route) const {
   if (!route.pattern.starts_with(one_session)) return;
   const std::string& id = request.parameters.at("id");
-  if (sessions_.is_rated_by(request.caller, id))
-    throw net::RequestError(
-        403, "you rate session '" + id + "'; until its study is closed you see it in your rating queue only");
+  // Whoever stands beside a device may stop it.
+  if (route.urgency != net::Urgency::halt) require_unrated(request.caller, id);
   if (access::is_staff(request.caller.role)) return;
   const auto session = sessions_.session_of(id);
   if (session && !may_see(request.caller, *session)) refuse_unseen(id);
+}
+
+void Authorizer::require_unrated(const net::Caller& caller, const std::string& session) const {
+  if (sessions_.is_rated_by(caller, session))
+    throw net::RequestError(403, "you rate session '" + session +
+                                     "'; until its study is closed you see it in your rating queue only");
 }
 
 void Authorizer::authorize(net::Request& request, const Route& route) const {

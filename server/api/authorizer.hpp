@@ -33,6 +33,9 @@ class Authorizer {
   /// cookie is none.
   Visitor visitor(const net::Request& request) const;
 
+  /// RequestError 403 for a session that the caller rates.
+  void require_unrated(const net::Caller& caller, const std::string& session) const;
+
   /// Whether the server lets in everybody.
   bool is_open() const { return !access_control_.users.any(); }
 

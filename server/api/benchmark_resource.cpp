@@ -42,14 +42,15 @@ json benchmark_json(const score::KeptBenchmark& kept, const net::Caller& caller)
 }
 
 /// What sessions say; each must have ended and left metrics. `key` names them in the request.
-std::vector<score::EndedSession> measured(const Services& services, const std::vector<std::string>& ids,
-                                          const std::string& key) {
+std::vector<score::EndedSession> measured(const Services& services, const net::Request& request,
+                                          const std::vector<std::string>& ids, const std::string& key) {
   std::vector<score::EndedSession> sessions;
   for (size_t i = 0; i < ids.size(); ++i) {
     const auto refuse = [&](const std::string& why) {
       throw net::RequestError(422, "session '" + ids[i] + "' " + why,
                               {{pointer_to(key) + "/" + std::to_string(i), why}});
     };
+    services.authorizer.require_unrated(request.caller, ids[i]);
     try {
       if (is_live(services.sessions.get(ids[i]).status.state)) refuse("has not ended");
       sessions.push_back({ids[i], nullptr, services.sessions.metrics(ids[i])});
@@ -84,8 +85,8 @@ net::Response create_benchmark(const Services& services, const net::Request& req
   const session::Judge judge = services.stores.judge_by(wanted.rubric);
   score::KeptBenchmark made;
   services.executor.run([&] {
-    const auto experts = measured(services, wanted.experts, "experts");
-    const auto novices = measured(services, wanted.novices, "novices");
+    const auto experts = measured(services, request, wanted.experts, "experts");
+    const auto novices = measured(services, request, wanted.novices, "novices");
     made.benchmark = score::make_benchmark(wanted.name, experts);
     if (novices.empty()) return;
     made.novices = wanted.novices;

@@ -39,8 +39,10 @@ json job_json(const jobs::JobRecord& job) {
           {"result", std::move(result)}};
 }
 
-/// Operators and instructors may know of all work, others of that on sessions that they may see.
-bool may_see_job(const net::Caller& caller, const jobs::JobRecord& job) {
+/// Operators and instructors may know of all work but that on sessions that they rate, others of that on
+/// sessions that they may see.
+bool may_see_job(const Services& services, const net::Caller& caller, const jobs::JobRecord& job) {
+  if (job.order.session && services.ratings.hides(caller, *job.order.session)) return false;
   if ((access::role_bit(caller.role) & access::staff) != 0) return true;
   return job.order.session && may_see(caller, *job.order.session);
 }
@@ -53,7 +55,7 @@ bool fits(const net::Request& request, const std::string& name, const std::strin
 net::Response list_jobs(const Services& services, const net::Request& request) {
   std::vector<json> list;
   for (const jobs::JobRecord& job : services.jobs.list())
-    if (may_see_job(request.caller, job) && fits(request, "case_id", job.order.case_id) &&
+    if (may_see_job(services, request.caller, job) && fits(request, "case_id", job.order.case_id) &&
         fits(request, "session_id", job.order.session_id) && fits(request, "kind", job.order.kind) &&
         fits(request, "state", to_text(job.state)))
       list.push_back(job_json(job));
@@ -63,7 +65,7 @@ net::Response list_jobs(const Services& services, const net::Request& request) {
 /// In the words of a job that does not exist unless the caller may know of it.
 jobs::JobRecord seen_job(const Services& services, const net::Request& request) {
   jobs::JobRecord job = services.jobs.get(id_of(request));
-  if (!may_see_job(request.caller, job))
+  if (!may_see_job(services, request.caller, job))
     throw Error(ErrorKind::not_found, "no job '" + job.id + "'; GET /api/v1/jobs lists them");
   return job;
 }

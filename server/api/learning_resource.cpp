@@ -48,7 +48,7 @@ std::vector<session::EndedSession> attempts_of(const Services& services, const n
   std::vector<session::EndedSession> attempts;
   const std::string name = query_text(request, "name");
   for (const session::SessionRecord& record :
-       sessions_for(request.caller, services.sessions, query_of(request)).sessions) {
+       sessions_for(services, request.caller, query_of(request)).sessions) {
     if (!name.empty() && !is_named(record, name)) continue;
     const std::string& id = record.request.id;
     const fs::path folder = services.sessions.folder_of(id);

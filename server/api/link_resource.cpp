@@ -35,6 +35,10 @@ net::Response add_link(const Services& services, const net::Request& request) {
   if (services.authorizer.is_open())
     throw Error(ErrorKind::conflict,
                 "without users everybody may watch without a link; add a user first, then make links");
+  if (!services.studies.rated_by(request.caller).empty())
+    throw Error(
+        ErrorKind::conflict,
+        "you rate an open study, and a link shows what is hidden from you; make it when the study is closed");
   const json& body = body_of(request);
   access::NewCredential wanted;
   wanted.name = text_in(body, "name");

@@ -4,7 +4,6 @@
 #include "api/request_values.hpp"
 #include "api/routes.hpp"
 #include "api/services.hpp"
-#include "api/visibility.hpp"
 #include "core/text.hpp"
 
 namespace ream::api {
@@ -55,16 +54,14 @@ net::Response get_queue(const Services& services, const net::Request& request) {
   return net::json_response(200, {{"queue", std::move(list)}});
 }
 
-/// The replay has an id of its own, so that what the rater sees does not name the session.
+/// The replay has an id of its own and does not say which session it is of.
 net::Response open_replay(const Services& services, const net::Request& request) {
   services.readiness.require_prepared();
   const std::string id = services.ratings.queued(request.caller, id_of(request), key_of(request)).session;
   const session::SessionRequest session = services.sessions.get(id).request;
   const session::ReplayRecord record =
-      services.replays.create({{}, id, session.case_id, session.script, counted_for(request.caller)});
-  json view = to_json(record);
-  view["marks"] = json::array();
-  return created("/api/v1/sessions/" + record.request.id, view);
+      services.replays.create({{}, id, session.case_id, session.script, request.caller.user_id, true});
+  return created("/api/v1/sessions/" + record.request.id, to_json(record));
 }
 
 net::Response rate_session(const Services& services, const net::Request& request) {

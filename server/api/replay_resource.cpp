@@ -37,12 +37,13 @@ net::Response change_playback(const Services& services, const net::Request& requ
 
 json to_json(const session::ReplayRecord& record) {
   const session::PlaybackStatus& status = record.status;
+  const bool blind = record.request.blind;
   json marks = json::array();
-  for (const session::ReplayMark& mark : record.marks)
+  for (const session::ReplayMark& mark : blind ? std::vector<session::ReplayMark>() : record.marks)
     marks.push_back({{"at_s", mark.at_s}, {"kind", mark.kind}, {"words", mark.words}});
   return {{"id", record.request.id},
           {"kind", "replay"},
-          {"replay_of", record.request.replay_of},
+          {"replay_of", blind ? json(nullptr) : json(record.request.replay_of)},
           {"case", record.request.case_id},
           {"script", record.request.script},
           {"state", record.open ? "replaying" : "stopped"},

@@ -33,14 +33,17 @@ std::vector<std::string> ids_by_filter(const Services& services, const net::Requ
   store::SessionQuery query = session_query(as_list);
   query.limit = SIZE_MAX;
   std::vector<std::string> ids;
-  for (const session::SessionRecord& record : sessions_for(request.caller, services.sessions, query).sessions)
+  for (const session::SessionRecord& record : sessions_for(services, request.caller, query).sessions)
     if (!is_live(record.status.state)) ids.push_back(record.request.id);
   return ids;
 }
 
-std::vector<std::string> ids_named(const Services& services, const std::vector<std::string>& named) {
-  for (const std::string& id : named)
+std::vector<std::string> ids_named(const Services& services, const net::Request& request,
+                                   const std::vector<std::string>& named) {
+  for (const std::string& id : named) {
+    services.authorizer.require_unrated(request.caller, id);
     require_ended(services.sessions.get(id), "it can be scored anew when it has ended");
+  }
   return named;
 }
 
@@ -91,9 +94,10 @@ net::Response begin_rescoring(const Services& services, const net::Request& requ
   if (by_name == body.contains("filter"))
     throw net::RequestError(422, "say either 'sessions' or 'filter'; an empty filter means all sessions",
                             {{"#/sessions", "or filter: one of them"}});
-  Rescoring all{&services.sessions, &services.feed, &services.engine,
-                services.stores.judge_by(text_in(body, "rubric"), text_in(body, "benchmark")),
-                by_name ? ids_named(services, named) : ids_by_filter(services, request, body.at("filter"))};
+  Rescoring all{
+      &services.sessions, &services.feed, &services.engine,
+      services.stores.judge_by(text_in(body, "rubric"), text_in(body, "benchmark")),
+      by_name ? ids_named(services, request, named) : ids_by_filter(services, request, body.at("filter"))};
   if (all.ids.empty())
     throw net::RequestError(422, "no session that has ended fits the filter", {{"#/filter", "fits nothing"}});
   services.audit(request, "session.rescore", "",

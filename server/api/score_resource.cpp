@@ -60,8 +60,7 @@ std::vector<session::EndedSession> table_sessions(const Services& services, cons
   store::SessionQuery query = session_query(request);
   query.limit = SIZE_MAX;
   std::vector<session::EndedSession> sessions;
-  for (const session::SessionRecord& record :
-       sessions_for(request.caller, services.sessions, query).sessions) {
+  for (const session::SessionRecord& record : sessions_for(services, request.caller, query).sessions) {
     if (is_live(record.status.state)) continue;
     const fs::path folder = services.sessions.folder_of(record.request.id);
     std::error_code failed;

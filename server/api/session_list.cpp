@@ -53,7 +53,7 @@ session::SessionPage only(const session::SessionService& sessions, const store::
 json visible_replays(const Services& services, const net::Caller& caller) {
   json visible = json::array();
   for (const session::ReplayRecord& record : services.replays.list()) try {
-      if (may_see(caller, services.sessions.get(record.request.replay_of).request))
+      if (!record.request.blind && may_see(caller, services.sessions.get(record.request.replay_of).request))
         visible.push_back(to_json(record));
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::not_found) throw;
@@ -85,11 +85,11 @@ store::SessionQuery session_query(const net::Request& request) {
   return query;
 }
 
-session::SessionPage sessions_for(const net::Caller& caller, const session::SessionService& sessions,
+session::SessionPage sessions_for(const Services& services, const net::Caller& caller,
                                   store::SessionQuery query) {
   const access::Roles role = access::role_bit(caller.role);
   if (role == access::viewers && !caller.only_session.empty())
-    return only(sessions, query, caller.only_session);
+    return only(services.sessions, query, caller.only_session);
   if (role == access::trainees) {
     if (!query.trainee_id.empty() && query.trainee_id != caller.user_id) return {};
     query.trainee_id = caller.user_id;
@@ -97,11 +97,12 @@ session::SessionPage sessions_for(const net::Caller& caller, const session::Sess
   // What is found by a person would tell who is behind a code.
   if (role != access::operators && role != access::trainees && !query.trainee_id.empty())
     query.outside_studies = true;
-  return sessions.list(query);
+  query.without_studies = services.studies.rated_by(caller);
+  return services.sessions.list(query);
 }
 
 net::Response list_sessions(const Services& services, const net::Request& request) {
-  session::SessionPage page = sessions_for(request.caller, services.sessions, session_query(request));
+  session::SessionPage page = sessions_for(services, request.caller, session_query(request));
   const study::Blinding blinding = services.studies.blinding(request.caller);
   json records = json::array();
   for (session::SessionRecord& record : page.sessions)

@@ -12,7 +12,7 @@ store::SessionQuery session_query(const net::Request& request);
 /// The sessions that a caller may see of those: trainees their own, viewers what their link is for. Who asks
 /// for a person and may not know who is behind codes gets sessions outside of studies only. Errors:
 /// invalid_input for a bad cursor; unavailable while the index cannot be asked.
-session::SessionPage sessions_for(const net::Caller& caller, const session::SessionService& sessions,
+session::SessionPage sessions_for(const Services& services, const net::Caller& caller,
                                   store::SessionQuery query);
 
 /// GET /api/v1/sessions: a page of the sessions that the caller may see, as they may know them, and the

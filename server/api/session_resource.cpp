@@ -117,16 +117,14 @@ net::Response stop_session(const Services& services, const net::Request& request
 
 net::Response reset_session(const Services& services, const net::Request& request) {
   services.readiness.require_prepared();
-  const auto phase = study::phase_from(services.sessions.get(id_of(request)).request.phase);
-  if (phase && study::is_test(*phase))
-    throw Error(ErrorKind::conflict, "session '" + id_of(request) +
-                                         "' is a test of its study, which is done once; stop it instead");
+  services.studies.require_repeatable(services.sessions.get(id_of(request)).request);
   return created_session(services, request,
                          services.sessions.reset(id_of(request), is_trainee(request.caller)));
 }
 
 net::Response resume_session(const Services& services, const net::Request& request) {
   services.readiness.require_prepared();
+  services.studies.require_repeatable(services.sessions.get(id_of(request)).request);
   const std::string reamer = text_in(body_of(request), "reamer");
   return reply_with(services, request,
                     services.sessions.resume(id_of(request), reamer, is_trainee(request.caller)));
@@ -134,8 +132,10 @@ net::Response resume_session(const Services& services, const net::Request& reque
 
 net::Response get_metrics(const Services& services, const net::Request& request) {
   const std::string& id = id_of(request);
-  return net::json_response(
-      200, services.replays.has(id) ? services.replays.metrics(id) : services.sessions.metrics(id));
+  if (!services.replays.has(id)) return net::json_response(200, services.sessions.metrics(id));
+  if (services.replays.get(id).request.blind)
+    throw net::RequestError(403, "'" + id + "' is a replay for rating; its metrics are hidden");
+  return net::json_response(200, services.replays.metrics(id));
 }
 
 /// For slow links the surface may have one sample every 2 or 4 voxels.

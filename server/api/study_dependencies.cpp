@@ -1,5 +1,6 @@
 #include "api/study_dependencies.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
@@ -36,6 +37,15 @@ class ServerDependencies final : public study::StudyDependencies {
     std::vector<session::SessionRecord> all = sessions_.list(query).sessions;
     std::erase_if(all, [](const auto& one) { return is_live(one.status.state) || one.status.tick == 0; });
     return all;
+  }
+
+  bool has_live_session(const std::string& study_id, const std::string& code) const override {
+    store::SessionQuery query;
+    query.study = study_id;
+    query.participant = code;
+    query.limit = SIZE_MAX;
+    const std::vector<session::SessionRecord> all = sessions_.list(query).sessions;
+    return std::any_of(all.begin(), all.end(), [](const auto& one) { return is_live(one.status.state); });
   }
 
   nlohmann::json metrics(const std::string& session_id) const override {

@@ -191,16 +191,16 @@ net::Response export_study(const Services& services, const net::Request& request
 /// Tables have the names under which the script reads them.
 net::Response get_validity(const Services& services, const net::Request& request) {
   const std::string form = query_text(request, "form", "report");
-  const study::ValidityInput input = services.studies.validity_input(request.caller, id_of(request));
-  services.audit(request, "study.validity", id_of(request), form);
-  if (form == "sessions") return csv_reply(validity_sessions_table(input), "sessions.csv");
-  if (form == "ratings") return csv_reply(validity_ratings_table(input), "ratings.csv");
   if (form == "script") {
     net::Response response = net::bytes_response(200, "text/plain; charset=utf-8",
                                                  net::share(std::string(study::validity_script())));
     response.headers.emplace_back("Content-Disposition", "attachment; filename=\"validity.R\"");
     return response;
   }
+  const study::ValidityInput input = services.studies.validity_input(request.caller, id_of(request));
+  services.audit(request, "study.validity", id_of(request), form);
+  if (form == "sessions") return csv_reply(validity_sessions_table(input), "sessions.csv");
+  if (form == "ratings") return csv_reply(validity_ratings_table(input), "ratings.csv");
   const study::ValidityReport report = validity_report(input);
   if (form == "numbers") return csv_reply(validity_numbers_table(report), "numbers.csv");
   return net::json_response(200, validity_json(report));
@@ -216,8 +216,15 @@ net::Response study_changed(const Services& services, const net::Request& reques
   return study_reply(services, request, study);
 }
 
+/// What the body leaves out of questionnaire, design and form stays as it is.
 net::Response change_study(const Services& services, const net::Request& request) {
-  const study::Study study = services.studies.change(id_of(request), study_draft_from(body_of(request)));
+  const json& body = body_of(request);
+  study::StudyDraft draft = study_draft_from(body);
+  const study::Study before = services.studies.get(request.caller, id_of(request));
+  if (!body.contains("questionnaire")) draft.questionnaire = before.questionnaire;
+  if (!body.contains("design")) draft.settings.design = before.settings.design;
+  if (!body.contains("rating_form")) draft.settings.rating_form = before.settings.rating_form;
+  const study::Study study = services.studies.change(id_of(request), draft);
   return study_changed(services, request, study, "study.change");
 }
 

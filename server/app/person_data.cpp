@@ -160,6 +160,13 @@ json audit_json(const access::AuditLog& audit, const access::User& user) {
   return rows;
 }
 
+json ratings_by(store::Database& database, const std::string& study, const std::string& label) {
+  json answers = json::array();
+  for (const store::RatingRow& row : store::RatingTable(database).ratings(study))
+    if (row.rater == label) answers.push_back(parse_json(row.answers));
+  return answers;
+}
+
 }  // namespace
 
 ForgetReport forget_person(store::Database& database, access::AccessControl& access_control,
@@ -195,7 +202,7 @@ json export_person(store::Database& database, const access::AccessControl& acces
     studies.push_back({{"study", study}, {"participant", code}});
   json rated = json::array();
   for (const auto& [study, label] : store::RatingTable(database).labels_of(user.id))
-    rated.push_back({{"study", study}, {"rater", label}});
+    rated.push_back({{"study", study}, {"rater", label}, {"ratings", ratings_by(database, study, label)}});
   return {{"user", api::user_json(user)},      {"credentials", credentials_json(access_control, user)},
           {"sessions", std::move(sessions)},   {"studies", std::move(studies)},
           {"rated_studies", std::move(rated)}, {"audit", audit_json(access_control.audit, user)}};

@@ -17,6 +17,7 @@ struct ReplayRequest {
   std::string replay_of;  ///< id of a session that has ended
   std::string case_id, script;
   std::string counted_for = {};  ///< whose places it takes (ReplayLimits::of_caller); empty: not limited
+  bool blind = false;            ///< does not say which session it is of, nor its marks and metrics
 };
 
 /// A moment that is worth finding.

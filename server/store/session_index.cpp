@@ -147,6 +147,8 @@ Conditions filters_of(const SessionQuery& query, const std::vector<std::string>&
     conditions.add_if_given(column + conditions.next_name(), *value);
   add_marks(query, conditions);
   if (query.outside_studies) conditions.add("study = ''");
+  for (const std::string& study : query.without_studies)
+    conditions.add("study <> " + conditions.next_name(), study);
   for (const std::string& word : searched_words(query))
     conditions.add("search LIKE " + conditions.next_name() + " ESCAPE '\\'", pattern_of(word));
   return conditions;

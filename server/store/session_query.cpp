@@ -109,6 +109,8 @@ bool matches(const SessionQuery& query, const SessionRow& row) {
       !matches_filter(query.study, row.study) || !matches_filter(query.participant, row.participant))
     return false;
   if (query.outside_studies && !row.study.empty()) return false;
+  const auto& without = query.without_studies;
+  if (std::find(without.begin(), without.end(), row.study) != without.end()) return false;
   if (row.created_utc < query.created_from) return false;
   if (!query.created_before.empty() && row.created_utc >= query.created_before) return false;
   const std::string text = searched_text(row);

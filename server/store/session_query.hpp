@@ -37,6 +37,7 @@ struct SessionQuery {
   std::vector<std::string> states;               ///< any of these
   std::string case_id, trainee_id;               ///< exactly
   std::string study, participant;                ///< exactly
+  std::vector<std::string> without_studies;      ///< of none of these
   bool outside_studies = false;                  ///< of no study only
   std::string created_from, created_before;      ///< UTC as created_utc, or the beginning of one ("2026-01")
   std::vector<std::string> outcomes;             ///< any of these; "none" for those without

@@ -17,6 +17,13 @@ class Blinding {
   Blinding(net::Caller caller, std::set<std::string> unblinded, std::set<std::string> rated)
       : caller_(std::move(caller)), unblinded_(std::move(unblinded)), rated_(std::move(rated)) {}
 
+  /// While nothing can be looked up: all that may have to be hidden is.
+  static Blinding of_nothing_known(net::Caller caller) {
+    Blinding blinding(std::move(caller), {}, {});
+    blinding.nothing_known_ = true;
+    return blinding;
+  }
+
   /// Whether the person is to be hidden.
   bool hides(const session::SessionRequest& session) const;
   /// Whether all that could sway a rater is to be hidden.
@@ -29,6 +36,7 @@ class Blinding {
 
   net::Caller caller_;
   std::set<std::string> unblinded_, rated_;
+  bool nothing_known_ = false;
 };
 
 }  // namespace ream::study

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "access/role.hpp"
+#include "access/secret.hpp"
 #include "core/error.hpp"
-#include "core/hash.hpp"
 #include "core/json.hpp"
 #include "study/study_sessions.hpp"
 
@@ -14,15 +14,13 @@ namespace ream::study {
 using nlohmann::json;
 namespace {
 
-/// A session's name for one rater. The study's seed, which nobody sees while it is open, keeps a rater from
-/// working it out.
+/// A session's name for one rater. Who has no rating_key cannot work it out, nor tell which session it is of.
 std::string key_of(const Study& study, const std::string& label, const std::string& session) {
-  const uint64_t seed = hash_text(study.id, hash_text(study.allocation_seed));
-  return to_hex(hash_text(session, hash_text(label, seed)));
+  return access::keyed_digest(study.rating_key, label + "/" + session);
 }
 
-bool is_rated(const Study& study, const session::SessionRecord& session) {
-  if (!carried_out(session)) return false;
+bool is_rated(const Study& study, const session::SessionRecord& session, const nlohmann::json& metrics) {
+  if (!carried_out(session) || !touched_bone(metrics)) return false;
   if (!study.settings.design) return true;
   const auto phase = phase_from(session.request.phase);
   return phase && is_test(*phase);
@@ -57,6 +55,8 @@ Rater RatingService::add(const net::Caller& caller, const std::string& study_id,
 }
 
 void RatingService::remove(const std::string& study, const std::string& label) {
+  if (studies_.is_closed(study))
+    throw Error(ErrorKind::conflict, "study '" + study + "' is closed; its raters and ratings stay");
   table_.remove_rater(study, label);
 }
 
@@ -80,7 +80,8 @@ std::vector<QueuedRating> RatingService::queue_of(const Study& study, const stor
   const std::set<std::string> codes = studies_.codes(study.id);
   for (const session::SessionRecord& session : dependencies_->sessions(study.id)) {
     const std::string& id = session.request.id;
-    if (!is_rated(study, session) || !codes.contains(session.request.participant) ||
+    if (!is_rated(study, session, dependencies_->metrics(id)) ||
+        !codes.contains(session.request.participant) ||
         (!rater.user_id.empty() && session.request.trainee_id == rater.user_id))
       continue;
     const auto given = answers.find(id);
@@ -122,11 +123,11 @@ void RatingService::rate(const net::Caller& caller, const std::string& study_id,
 }
 
 bool RatingService::rates(const net::Caller& caller, const std::string& study) const {
-  return table_.labels_of(caller.user_id).contains(study);
+  return !caller.user_id.empty() && table_.labels_of(caller.user_id).contains(study);
 }
 
 bool RatingService::hides(const net::Caller& caller, const session::SessionRequest& session) const {
-  if (session.study.empty() || caller.user_id.empty()) return false;
+  if (session.study.empty() || !rates(caller, session.study)) return false;
   return studies_.blinding(caller).hides_all(session);
 }
 

@@ -20,7 +20,7 @@ struct Rater {
 /// One session in a rater's queue, without anything that says whose it is.
 struct QueuedRating {
   std::string key;                        ///< 16 hex digits: the rater's own name for the session
-  std::string session;                    ///< never told to the rater
+  std::string session;                    ///< not for the rater
   std::optional<nlohmann::json> answers;  ///< none yet
 };
 
@@ -36,12 +36,13 @@ class RatingService {
 
   /// Error conflict for who cannot be blind: operators, and who rates there already.
   Rater add(const net::Caller& caller, const std::string& study, const std::string& user_id);
+  /// With all their ratings. Error conflict once the study is closed.
   void remove(const std::string& study, const std::string& label);
   /// In the order in which they came.
   std::vector<Rater> raters(const net::Caller& caller, const std::string& study) const;
 
-  /// What the caller rates, in the caller's order: sessions that were carried out, of a study with a design
-  /// its tests only, and none of the caller's own. Error not_found when they rate nothing there.
+  /// What the caller rates, in the caller's order: sessions that were carried out on bone, of a study with a
+  /// design its tests only, and none of the caller's own. Error not_found when they rate nothing there.
   std::vector<QueuedRating> queue(const net::Caller& caller, const std::string& study) const;
   QueuedRating queued(const net::Caller& caller, const std::string& study, const std::string& key) const;
   /// Keeps the caller's answers; they may change until the study is closed. RequestError 422 names what is

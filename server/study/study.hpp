@@ -26,6 +26,7 @@ struct Study {
   bool open = true;  ///< sessions, participants and answers come in
   std::string join_code;
   std::string allocation_seed;  ///< of the random sequence of arms; hidden until the study is closed
+  std::string rating_key;       ///< names sessions for raters; nobody sees it
   StudySettings settings;
   std::optional<Questionnaire> questionnaire;
   std::string created_utc, closed_utc, unblinded_utc;  ///< the latter two empty until it is

@@ -56,7 +56,7 @@ std::vector<session::ExportColumn> rating_columns() {
           attempt_column,
           arm_column,
           phase_column,
-          {"rater", "", "Who rated, as R1, R2, ...; raters knew neither participant nor score"}};
+          {"rater", "", "Who rated, as R1, R2, ...; raters were shown neither participant nor score"}};
 }
 
 std::vector<session::ExportColumn> group_columns() {

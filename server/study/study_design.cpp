@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::array phase_names = {"pre", "training", "post", "retention"};
 
-/// How often each arm comes in a block of the random sequence.
-constexpr size_t repeats_in_block = 2;
+/// An arm comes once to so often in a block of the random sequence.
+constexpr uint64_t max_repeats = 3;
 
 StudyArm arm_from(const json& value) {
   return {value.at("id"),
@@ -89,16 +89,17 @@ const StudyArm* find_arm(const StudyDesign& design, const std::string& id) {
 
 const StudyArm& arm_at(const StudyDesign& design, const std::string& seed, const std::string& stratum,
                        int64_t place) {
-  const size_t size = design.arms.size() * repeats_in_block;
-  std::vector<size_t> block(size);
-  for (size_t i = 0; i < size; ++i) block[i] = i % design.arms.size();
-  uint64_t state = hash_combine(hash_text(stratum, hash_text(seed)), static_cast<uint64_t>(place) / size);
-  // Fisher and Yates' shuffle. The remainder favours no arm by more than size / 2^64.
-  for (size_t i = size - 1; i > 0; --i) {
-    state = mix64(state);
-    std::swap(block[i], block[state % (i + 1)]);
+  uint64_t state = hash_text(stratum, hash_text(seed));
+  const auto draw = [&](uint64_t below) { return (state = mix64(state)) % below; };
+  for (int64_t begin = 0;;) {
+    std::vector<size_t> block(design.arms.size() * (1 + draw(max_repeats)));
+    for (size_t i = 0; i < block.size(); ++i) block[i] = i % design.arms.size();
+    // Fisher and Yates' shuffle. The remainder favours no arm by more than 2^-59.
+    for (size_t i = block.size() - 1; i > 0; --i) std::swap(block[i], block[draw(i + 1)]);
+    const auto end = begin + static_cast<int64_t>(block.size());
+    if (place < end) return design.arms[block[static_cast<size_t>(place - begin)]];
+    begin = end;
   }
-  return design.arms[block[static_cast<size_t>(place) % size]];
 }
 
 std::optional<NextSession> next_session(const StudyDesign& design, const StudyArm& arm,

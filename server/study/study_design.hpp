@@ -44,8 +44,8 @@ StudyDesign design_from(const nlohmann::json& value);
 /// None for an id that no arm has.
 const StudyArm* find_arm(const StudyDesign& design, const std::string& id);
 
-/// Which arm is at a place (from 0) of the random sequence of a stratum: permuted blocks in which each arm
-/// comes twice, so that after each block the arms are equally many. The same seed gives the same sequence on
+/// Which arm is at a place (from 0) of the random sequence of a stratum: permuted blocks of random
+/// size, in which each arm comes equally often, once to three times. The same seed gives the same sequence on
 /// every machine.
 const StudyArm& arm_at(const StudyDesign& design, const std::string& seed, const std::string& stratum,
                        int64_t place);

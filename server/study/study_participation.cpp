@@ -107,8 +107,8 @@ StudyExport StudyService::everything(const Study& study) const {
 void StudyService::require_export(const net::Caller& caller, const Study& study) const {
   if (study.open && !access::is_operator(caller.role))
     throw Error(ErrorKind::conflict, "study '" + study.id +
-                                         "' is open; close it first, for who scores must not know who is how "
-                                         "experienced");
+                                         "' is open; close it first, for whoever scores must not know how "
+                                         "experienced participants are");
 }
 
 StudyExport StudyService::export_all(const net::Caller& caller, const std::string& id) const {
@@ -146,6 +146,7 @@ void StudyService::admit(const net::Caller& caller, session::SessionRequest& wan
     wanted.participant = own;
   }
   participant(caller, id, wanted.participant);
+  require_no_rater(caller, id);
   wanted.script = study.settings.script;
   wanted.device_profile = study.settings.device_profile;
   if (study.settings.design) place_in_design(study, wanted);
@@ -175,6 +176,9 @@ std::optional<NextSession> StudyService::next(const Study& study, const std::str
 void StudyService::place_in_design(const Study& study, session::SessionRequest& wanted) const {
   const StudyDesign& design = *study.settings.design;
   const std::string& code = wanted.participant;
+  if (dependencies_->has_live_session(study.id, code))
+    throw Error(ErrorKind::conflict,
+                "participant '" + code + "' has a session that has not ended; stop it first");
   const auto next = this->next(study, code);
   if (!next)
     throw Error(ErrorKind::conflict,
@@ -199,17 +203,34 @@ void StudyService::place_in_design(const Study& study, session::SessionRequest& 
   if (!arm.device_profile.empty()) wanted.device_profile = arm.device_profile;
 }
 
+std::vector<std::string> StudyService::rated_by(const net::Caller& caller) const {
+  std::vector<std::string> open;
+  for (const auto& [study, label] : ratings_.labels_of(caller.user_id))
+    if (const auto row = table_.find(study); row && row->state == "open") open.push_back(study);
+  return open;
+}
+
+void StudyService::require_repeatable(const session::SessionRequest& session) const {
+  const auto phase = phase_from(session.phase);
+  if (session.study.empty() || !phase) return;
+  const std::string name = "session '" + session.id + "'";
+  if (is_test(*phase)) throw Error(ErrorKind::conflict, name + " is a test of its study, which is done once");
+  const auto row = table_.find(session.study);
+  if (!row || row->state != "open") throw Error(ErrorKind::conflict, "the study of " + name + " is closed");
+  const auto next = this->next(study_of(*row), session.participant);
+  if (!next || next->phase != Phase::training)
+    throw Error(ErrorKind::conflict, "participant '" + session.participant + "' has done all training");
+}
+
 Blinding StudyService::blinding(const net::Caller& caller) const {
   std::set<std::string> unblinded, rated;
   try {
-    const std::map<std::string, std::string> labels = ratings_.labels_of(caller.user_id);
-    if (access::is_operator(caller.role) && labels.empty()) return {caller, {}, {}};
-    for (const store::StudyRow& row : table_.list()) {
+    for (const std::string& study : rated_by(caller)) rated.insert(study);
+    if (access::is_operator(caller.role) && rated.empty()) return {caller, {}, {}};
+    for (const store::StudyRow& row : table_.list())
       if (!row.unblinded_utc.empty()) unblinded.insert(row.id);
-      if (row.state == "open" && labels.contains(row.id)) rated.insert(row.id);
-    }
   } catch (const Error&) {
-    unblinded.clear();  // what cannot be looked up now stays hidden
+    return Blinding::of_nothing_known(caller);
   }
   return {caller, std::move(unblinded), std::move(rated)};
 }

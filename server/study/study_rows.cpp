@@ -13,7 +13,8 @@ store::StudyRow row_of(const Study& study) {
       {"device_profile", study.settings.device_profile},
       {"design", study.settings.design ? to_json(*study.settings.design) : json(nullptr)},
       {"rating_form", study.settings.rating_form ? to_json(*study.settings.rating_form) : json(nullptr)},
-      {"allocation_seed", study.allocation_seed}};
+      {"allocation_seed", study.allocation_seed},
+      {"rating_key", study.rating_key}};
   return {study.id,
           study.name,
           study.description,
@@ -39,6 +40,7 @@ Study study_of(const store::StudyRow& row) {
   study.settings.device = settings.value("device", "");
   study.settings.device_profile = settings.value("device_profile", "");
   study.allocation_seed = settings.value("allocation_seed", "");
+  study.rating_key = settings.value("rating_key", "");
   if (const json design = settings.value("design", json()); !design.is_null())
     study.settings.design = design_from(design);
   if (const json form = settings.value("rating_form", json()); !form.is_null())

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "access/role.hpp"
+#include "access/secret.hpp"
 #include "core/error.hpp"
 #include "core/new_id.hpp"
 #include "study/study_rows.hpp"
@@ -48,6 +49,11 @@ void StudyService::require_settings(const StudySettings& settings) const {
                 "design.test_case '" + settings.design->test_case + "' is none of the study's cases");
 }
 
+void StudyService::require_no_rater(const net::Caller& caller, const std::string& id) const {
+  if (ratings_.labels_of(caller.user_id).contains(id) && code_of(caller, id).empty())
+    throw Error(ErrorKind::conflict, "you rate study '" + id + "'; somebody else runs its sessions");
+}
+
 Study StudyService::create(const StudyDraft& draft) {
   require_settings(draft.settings);
   Study study;
@@ -57,7 +63,8 @@ Study StudyService::create(const StudyDraft& draft) {
   study.questionnaire = draft.questionnaire;
   study.id = random_id();
   study.join_code = random_id();
-  study.allocation_seed = random_id();
+  study.allocation_seed = access::random_key();
+  study.rating_key = access::random_key();
   study.created_utc = utc_now();
   table_.add(row_of(study));
   return study;
@@ -84,10 +91,13 @@ Study StudyService::change(const std::string& id, const StudyDraft& draft) {
   study.description = draft.description;
   study.settings = draft.settings;
   study.questionnaire = draft.questionnaire;
+  // Studies of earlier versions have none.
+  for (std::string* key : {&study.allocation_seed, &study.rating_key})
+    if (key->empty()) *key = access::random_key();
   const store::StudyRow was = row_of(before), is = row_of(study);
   if (was.settings != is.settings || was.questionnaire != is.questionnaire) {
     require_settings(draft.settings);
-    if (!table_.participants(id).empty())
+    if (!table_.participants(id).empty() || !ratings_.ratings(id).empty())
       throw Error(ErrorKind::conflict, "somebody takes part in study '" + id +
                                            "'; only its name and description can be changed now");
   }
@@ -114,6 +124,9 @@ Study StudyService::reopen(const std::string& id) {
   if (!study.blinded())
     throw Error(ErrorKind::conflict,
                 "study '" + id + "' is unblinded; what is added to it now would not be blind");
+  if (study.settings.design || !ratings_.raters(id).empty())
+    throw Error(ErrorKind::conflict,
+                "study '" + id + "' has arms or raters, who could have seen since what is hidden from them");
   study.open = true;
   study.closed_utc.clear();
   table_.replace(row_of(study));
@@ -165,7 +178,13 @@ Participant StudyService::add_participant(const Study& study, const NewParticipa
 Participant StudyService::enrol(const net::Caller& caller, const std::string& id,
                                 const NewParticipant& wanted) {
   const Study study = open_one(id);
-  if (wanted.user_id.empty() && wanted.name.empty()) return add_participant(study, wanted, std::nullopt);
+  require_no_rater(caller, id);
+  const auto seen = [&](Participant participant) {
+    if (!access::is_operator(caller.role)) participant.arm.clear();
+    return participant;
+  };
+  if (wanted.user_id.empty() && wanted.name.empty())
+    return seen(add_participant(study, wanted, std::nullopt));
   if (!access::is_operator(caller.role))
     throw net::RequestError(403,
                             "only operators may say who a participant is; give the person the join code");
@@ -187,7 +206,9 @@ std::pair<std::string, Participant> StudyService::join(const net::Caller& caller
   if (!row) throw Error(ErrorKind::not_found, "no study has this join code");
   const Study study = open_one(row->id);
   const store::PersonRow person{"", caller.user_id, caller.name};
-  return {study.id, add_participant(study, about, person)};
+  Participant participant = add_participant(study, about, person);
+  participant.arm.clear();
+  return {study.id, std::move(participant)};
 }
 
 }  // namespace ream::study

@@ -43,6 +43,8 @@ class StudyDependencies {
   /// None for an unknown id.
   virtual std::optional<StudyUser> find_user(const std::string& user_id) const = 0;
   virtual bool has_case(const std::string& case_id) const = 0;
+  /// Whether the participant has a session of the study that has not ended.
+  virtual bool has_live_session(const std::string& study_id, const std::string& code) const = 0;
   /// All sessions of a study that have run and ended.
   virtual std::vector<session::SessionRecord> sessions(const std::string& study_id) const = 0;
   /// What metrics.json says of one; an empty object where it left none.
@@ -108,6 +110,11 @@ class StudyService {
   void admit(const net::Caller& caller, session::SessionRequest& wanted) const;
   /// What the participant does next by the study's design; none when all is done, or without a design.
   std::optional<NextSession> next(const Study& study, const std::string& code) const;
+  /// Ids of the open studies whose sessions the caller rates.
+  std::vector<std::string> rated_by(const net::Caller& caller) const;
+  /// Error conflict unless a session of a study may be begun anew from intact bone, or be gone on with: a
+  /// test is done once, and training ends with its sessions.
+  void require_repeatable(const session::SessionRequest& session) const;
   /// What the caller may know of who trained.
   Blinding blinding(const net::Caller& caller) const;
 
@@ -120,6 +127,8 @@ class StudyService {
   Participant add_participant(const Study& study, const NewParticipant& wanted,
                               const std::optional<store::PersonRow>& person);
   void require_settings(const StudySettings& settings) const;
+  /// Who rates blind runs no sessions and enrols nobody.
+  void require_no_rater(const net::Caller& caller, const std::string& id) const;
   /// Makes a session of a study with a design what the participant does next.
   void place_in_design(const Study& study, session::SessionRequest& wanted) const;
 

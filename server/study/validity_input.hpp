@@ -8,9 +8,10 @@
 namespace ream::study {
 
 /// A study's sessions and ratings as the validity report takes them: sessions that were carried out and
-/// touched bone, under codes as "K7-F3M-2", the participant's second; of their measures the points and those
-/// metrics of the catalogue that the plan does not fix; of ratings the items of five points and, as 1 and 0,
-/// choices between two, whose first option counts as done.
+/// touched bone, under codes as "K7-F3M-2", the participant's second; tests beyond those of the design left
+/// out; of their measures the points, where all are by one rubric, and those metrics of the catalogue that
+/// the plan does not fix; of ratings the items of five points and, as 1 and 0, choices between two, whose
+/// first option counts as done.
 ValidityInput validity_input_of(const Study& study, const std::vector<Participant>& participants,
                                 const std::vector<session::SessionRecord>& sessions,
                                 const MetricsOfSession& metrics, const std::vector<SessionRating>& ratings);

@@ -88,7 +88,7 @@ void drop_labels(const fs::path& session_file) {
   nlohmann::json session = read_json_file(session_file);
   if (!session.is_object())
     throw Error(ErrorKind::invalid_input, "session.json of the bundle holds no session");
-  for (const char* key : {"trainee_id", "trainee", "study", "participant"}) session.erase(key);
+  for (const char* key : {"trainee_id", "trainee", "study", "participant", "phase"}) session.erase(key);
   write_json_file(session_file, session);
 }
 

@@ -94,7 +94,7 @@ stream::HelloInfo ReplaySession::hello() const {
   info.server_epoch = context_.server_epoch;
   info.force_scale = recording_.header().force_scale;
   info.force_max_n = recorded_force_max_n(recording_);
-  info.replay_of = request_.replay_of;
+  info.replay_of = request_.blind ? request_.id : request_.replay_of;
   info.duration_ticks = recording_.tick_count();
   return info;
 }

@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 struct EveryCase final : study::StudyDependencies {
   std::optional<study::StudyUser> find_user(const std::string&) const override { return std::nullopt; }
   bool has_case(const std::string&) const override { return true; }
+  bool has_live_session(const std::string&, const std::string&) const override { return false; }
   std::vector<session::SessionRecord> sessions(const std::string&) const override { return {}; }
   nlohmann::json metrics(const std::string&) const override { return nlohmann::json::object(); }
 };

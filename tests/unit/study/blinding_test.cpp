@@ -71,5 +71,14 @@ TEST(Blinding, WhoRatesKnowsNeitherCodeNorScore) {
   EXPECT_EQ(trained_it.seen(session("s1")).request.trainee, "Ada Lovelace");
 }
 
+TEST(Blinding, WhatCannotBeLookedUpIsHidden) {
+  const Blinding unsure = Blinding::of_nothing_known(caller("instructor"));
+  EXPECT_EQ(unsure.seen(session("s1")).request.participant, "");
+  EXPECT_FALSE(unsure.seen(session("s1")).mark);
+  EXPECT_EQ(unsure.seen(session("")).request.trainee, "Ada Lovelace") << "outside studies";
+  EXPECT_EQ(Blinding::of_nothing_known(caller("operator")).seen(session("s1")).request.trainee,
+            "Ada Lovelace");
+}
+
 }  // namespace
 }  // namespace ream::study

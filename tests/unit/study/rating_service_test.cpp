@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "access/secret.hpp"
 #include "core/new_id.hpp"
 #include "study/study_sessions.hpp"
 #include "support/expect_error.hpp"
@@ -30,6 +31,8 @@ class RatedServer final : public StudyDependencies {
     return std::nullopt;
   }
   bool has_case(const std::string&) const override { return true; }
+  bool has_live_session(const std::string&, const std::string& code) const override { return code == live; }
+  static inline std::string live;  ///< who has one
   std::vector<session::SessionRecord> sessions(const std::string& study) const override {
     std::vector<session::SessionRecord> found;
     for (const auto& one : sessions_)
@@ -109,6 +112,8 @@ TEST_F(RatingServiceTest, OnlyInstructorsRateAndOnce) {
   EXPECT_FALSE(ratings_.rates(ines, id));
   studies_.close(id);
   expect_error(ErrorKind::conflict, "closed", [&] { ratings_.add(olga, id, ines.user_id); });
+  expect_error(ErrorKind::conflict, "closed", [&] { ratings_.remove(id, "R2"); });
+  expect_error(ErrorKind::conflict, "raters", [&] { studies_.reopen(id); });
 }
 
 TEST_F(RatingServiceTest, EachRaterHasKeysAndAnOrderOfTheirOwn) {
@@ -142,6 +147,7 @@ TEST_F(RatingServiceTest, WhatIsRatedWasCarriedOutByAnotherAndIsStillKnown) {
   add_session(id, code, "sd");
   sessions_.back().request.trainee_id = ines.user_id;
   add_session(id, "NO-ONE", "se");
+  add_session(id, code, "air2");
   ratings_.add(olga, id, ines.user_id);
   ASSERT_EQ(ratings_.queue(ines, id).size(), 1u);
   EXPECT_EQ(ratings_.queue(ines, id)[0].session, "sa");
@@ -204,7 +210,7 @@ TEST_F(RatingServiceTest, ParticipantsComeToArmsByThePublishedSequence) {
   for (int i = 0; i < 4; ++i) codes.push_back(studies_.enrol(ines, id, {"novice", 0, "", "", ""}).code);
   for (const Participant& one : studies_.participants(ines, id))
     EXPECT_EQ(one.arm, "") << "hidden while open";
-  EXPECT_EQ(studies_.get(olga, id).allocation_seed.size(), 8u);
+  EXPECT_EQ(studies_.get(olga, id).allocation_seed.size(), 64u);
   const std::string seed = studies_.get(olga, id).allocation_seed;
   for (size_t place = 0; place < codes.size(); ++place) {
     if (place == 2) continue;
@@ -214,7 +220,10 @@ TEST_F(RatingServiceTest, ParticipantsComeToArmsByThePublishedSequence) {
     ++arms[one.arm];
   }
   EXPECT_EQ(arms["control"] + arms["trained"], 11);
-  EXPECT_LE(std::abs(arms["control"] - arms["trained"]), 1);
+  EXPECT_LE(std::abs(arms["control"] - arms["trained"]), 4) << "blocks of six at most, and one who withdrew";
+  EXPECT_EQ(studies_.enrol(ines, id, {"novice", 0, "", "", ""}).arm, "");
+  EXPECT_NE(studies_.enrol(olga, id, {"novice", 0, "", "", ""}).arm, "");
+  EXPECT_EQ(studies_.join(tom, {"novice", 0, "", "", studies_.get(olga, id).join_code}).second.arm, "");
   studies_.close(id);
   EXPECT_NE(studies_.participants(ines, id)[0].arm, "");
 }
@@ -222,7 +231,7 @@ TEST_F(RatingServiceTest, ParticipantsComeToArmsByThePublishedSequence) {
 TEST_F(RatingServiceTest, ASessionIsWhatItsParticipantDoesNext) {
   const std::string id = made(control_and_trained());
   std::string code;
-  for (int i = 0; i < 4 && code.empty(); ++i) {
+  for (int i = 0; i < 8 && code.empty(); ++i) {
     const std::string drawn = studies_.enrol(ines, id, {"novice", 0, "", "", ""}).code;
     if (studies_.participant(olga, id, drawn).arm == "trained") code = drawn;
   }
@@ -237,6 +246,9 @@ TEST_F(RatingServiceTest, ASessionIsWhatItsParticipantDoesNext) {
     return wanted;
   };
   EXPECT_EQ(admitted().phase, "pre");
+  RatedServer::live = code;
+  expect_error(ErrorKind::conflict, "has not ended", [&] { admitted(); });
+  RatedServer::live.clear();
   EXPECT_EQ(admitted().case_id, "demo");
   EXPECT_FALSE(admitted().theatre) << "tests are alike for all";
   expect_error(ErrorKind::conflict, "tested next, on case 'demo'", [&] { admitted("hard"); });
@@ -249,8 +261,16 @@ TEST_F(RatingServiceTest, ASessionIsWhatItsParticipantDoesNext) {
   EXPECT_EQ(admitted().script, "quiet");
   EXPECT_TRUE(admitted().theatre);
   add_session(id, code, "t1", "training");
+  const session::SessionRequest trained = sessions_.back().request;
+  EXPECT_NO_THROW(studies_.require_repeatable(trained));
+  expect_error(ErrorKind::conflict, "done once", [&] {
+    session::SessionRequest test = trained;
+    test.phase = "pre";
+    studies_.require_repeatable(test);
+  });
   add_session(id, code, "t2", "training");
   EXPECT_EQ(admitted().phase, "post");
+  expect_error(ErrorKind::conflict, "all training", [&] { studies_.require_repeatable(trained); });
   EXPECT_EQ(admitted().script, "");
   const std::string today = utc_now();
   add_session(id, code, "q1", "post", today);
@@ -259,6 +279,33 @@ TEST_F(RatingServiceTest, ASessionIsWhatItsParticipantDoesNext) {
   EXPECT_EQ(admitted().phase, "retention");
   add_session(id, code, "r1", "retention", today);
   expect_error(ErrorKind::conflict, "every session", [&] { admitted(); });
+}
+
+TEST_F(RatingServiceTest, WhoRatesRunsNoSessions) {
+  const std::string id = made(), code = participant(id, tom);
+  ratings_.add(olga, id, ines.user_id);
+  session::SessionRequest wanted;
+  wanted.study = id;
+  wanted.participant = code;
+  expect_error(ErrorKind::conflict, "you rate", [&] { studies_.admit(ines, wanted); });
+  expect_error(ErrorKind::conflict, "you rate", [&] { studies_.enrol(ines, id, {"expert", 9, "", "", ""}); });
+  EXPECT_NO_THROW(studies_.admit(ivo, wanted));
+  EXPECT_EQ(studies_.rated_by(ines), std::vector<std::string>{id});
+  studies_.close(id);
+  EXPECT_TRUE(studies_.rated_by(ines).empty());
+}
+
+TEST_F(RatingServiceTest, KeysTellNothingWithoutTheStudysKey) {
+  const std::string id = made(), code = participant(id, tom);
+  add_session(id, code, "sa");
+  ratings_.add(olga, id, ines.user_id);
+  const Study study = studies_.get(olga, id);
+  EXPECT_EQ(study.rating_key.size(), 64u);
+  EXPECT_NE(study.rating_key, study.allocation_seed);
+  EXPECT_EQ(ratings_.queue(ines, id)[0].key, access::keyed_digest(study.rating_key, "R1/sa"));
+  EXPECT_NE(access::keyed_digest(study.rating_key, "R1/sa"),
+            access::keyed_digest(study.allocation_seed, "R1/sa"));
+  EXPECT_NE(access::random_key(), access::random_key());
 }
 
 TEST_F(RatingServiceTest, TheTestCaseIsOneOfTheStudys) {

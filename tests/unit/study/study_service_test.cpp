@@ -45,6 +45,7 @@ class FakeServer final : public StudyDependencies {
     return std::nullopt;
   }
   bool has_case(const std::string& id) const override { return id != "missing"; }
+  bool has_live_session(const std::string&, const std::string&) const override { return false; }
   std::vector<session::SessionRecord> sessions(const std::string&) const override { return sessions_; }
   json metrics(const std::string&) const override { return json::object(); }
 

@@ -84,6 +84,38 @@ TEST(ValidityInput, ScalesOfFiveAndChoicesBetweenTwoAreNumbers) {
   EXPECT_NO_THROW(validity_report(input)) << "one participant gives sentences, not errors";
 }
 
+TEST(ValidityInput, ATestBeyondThoseOfTheDesignIsLeftOut) {
+  Study study = rated_study();
+  study.settings.design = StudyDesign{};
+  study.settings.design->arms = {{"all", "All", 3, false, "", ""}};
+  const std::vector<Participant> participants = {{"K7-F3M", "novice", 0, std::nullopt, false, "all"}};
+  const std::vector<session::SessionRecord> sessions = {ended("bb", "K7-F3M", "2026-03-02T08:00:00Z"),
+                                                        ended("aa", "K7-F3M", "2026-03-01T08:00:00Z")};
+  const ValidityInput input = validity_input_of(study, participants, sessions, metrics_of, {});
+  ASSERT_EQ(input.sessions.size(), 1u);
+  EXPECT_EQ(input.sessions[0].session, "K7-F3M-1") << "the first counts";
+}
+
+TEST(ValidityInput, PointsByDifferentRubricsAreNotCompared) {
+  const std::vector<Participant> participants = {{"K7-F3M", "novice", 0, std::nullopt}};
+  std::vector<session::SessionRecord> sessions = {ended("aa", "K7-F3M", "2026-03-01T08:00:00Z"),
+                                                  ended("bb", "K7-F3M", "2026-03-02T08:00:00Z")};
+  sessions[1].mark->version = sessions[0].mark->version + 1;
+  for (const RatedSession& one :
+       validity_input_of(rated_study(), participants, sessions, metrics_of, {}).sessions)
+    EXPECT_FALSE(one.measures.contains("points"));
+}
+
+TEST(ValidityInput, AnswersThatDoNotFitTheFormAreMissing) {
+  const std::vector<Participant> participants = {{"K7-F3M", "novice", 0, std::nullopt}};
+  const std::vector<session::SessionRecord> sessions = {ended("aa", "K7-F3M", "2026-03-01T08:00:00Z")};
+  const json older = {{"flow", "good"}, {"steady", 3}};
+  const ValidityInput input =
+      validity_input_of(rated_study(), participants, sessions, metrics_of, {{"R1", "aa", older}});
+  ASSERT_EQ(input.ratings.size(), 1u);
+  EXPECT_EQ(input.ratings[0].value, 0.0) << "not what counts as done";
+}
+
 TEST(ValidityInput, TheScriptForRIsThere) { EXPECT_EQ(validity_script().substr(0, 14), "#!/usr/bin/env"); }
 
 }  // namespace

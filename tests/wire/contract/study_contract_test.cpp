@@ -181,7 +181,18 @@ class StudyContractTest : public AccessTest {
       EXPECT_EQ(request(part == std::string("/replay") ? "POST" : "GET", path + part, ivo).status, 403)
           << part;
     EXPECT_EQ(request("GET", path, ines).status, 200);
-    EXPECT_EQ(request("GET", "/api/v1/sessions", ivo).body.find(code), std::string::npos);
+    for (const std::string& query : {std::string(), "?participant=" + code, "?study=" + id + "&sort=-points"})
+      EXPECT_EQ(json::parse(request("GET", "/api/v1/sessions" + query, ivo).body).at("total"), 0) << query;
+    EXPECT_EQ(json::parse(request("GET", "/api/v1/scores", ivo).body).dump().find(code), std::string::npos);
+    EXPECT_EQ(request("POST", path + "/stop", ivo).status, 409)
+        << "ended; whoever is beside a device may stop it";
+    const std::string open = json::parse(request("POST", key + "/replay", ivo).body).at("id");
+    for (const std::string& answer :
+         {request("GET", all + "/" + open, ivo).body, request("GET", all, anna).body})
+      EXPECT_EQ(answer.find("\"replay_of\":\"" + session), std::string::npos) << answer;
+    EXPECT_EQ(request("GET", all + "/" + open + "/metrics", ivo).status, 403);
+    EXPECT_EQ(request("POST", "/api/v1/links", ivo, "{}").status, 409);
+    EXPECT_EQ(request("POST", all, ivo, json{{"study", id}, {"participant", code}}.dump()).status, 409);
   }
 
   void validity() {
@@ -227,14 +238,17 @@ class StudyContractTest : public AccessTest {
       expect_step(word, 404, anna, "nothing");
     }
     expect_step("reopen", 409, ines);
+    const std::string plain = made(ines, studies, wanted).at("id");
+    expect_step("close", 200, ines, plain);
+    expect_step("reopen", 200, ines, plain);
     expect_step("unblind", 409, anna);
     expect_step("close", 200, ines);
     expect_step("close", 409, ines);
     expect("PUT", participant + "/answers", at + "/participants/" + code + "/answers", 409, tom,
            all_answers().dump());
     expect("PUT", one_study + "/rating-queue/{key}", rating_key, 409, ivo, rating_answers);
-    expect_step("reopen", 200, ines);
-    expect_step("close", 200, ines);
+    expect("DELETE", one_study + "/raters/{label}", at + "/raters/R1", 409, anna);
+    expect_step("reopen", 409, ines);
     expect_step("unblind", 403, ines);
     expect_step("unblind", 200, anna);
     expect("GET", persons, at + "/persons", 200, ines);

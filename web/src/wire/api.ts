@@ -22,8 +22,7 @@ export class Api {
     const body = { case: caseId, device: 'browser', ...(theatre ? { theatre } : {}) };
     return this.rest.json('post', '/api/v1/sessions', { body });
   }
-  /** A session of a study; participant null: the user. */
-  /** An empty `caseId`: the study knows which one is next. */
+  /** A session of a study; participant null: the user; an empty `caseId`: the study knows which one is next. */
   createInStudy(study: string, participant: string | null, caseId: string): Promise<Session> {
     const body = {
       study,
