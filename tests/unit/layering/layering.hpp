@@ -69,7 +69,7 @@ inline constexpr Limits server_limits{.header_lines = 250,
                                       .single_function_headers = 15,
                                       .private_headers = 22,
                                       .files = 955,
-                                      .lines = 87800,
+                                      .lines = 88000,
                                       .min_median_file_lines = 70,
                                       .max_median_file_lines = 110};
 
