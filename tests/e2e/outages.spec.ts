@@ -28,6 +28,7 @@ const givePictureBack = (page: Page) => page.evaluate(() => (window as WithConte
 async function watchResting(page: Page, how: 'pause' | 'stop'): Promise<string> {
   await page.goto(`${here.server.url}/#/`);
   await logIn(page, 'olga');
+  await expect(page.getByTestId('current-user')).toBeVisible();
   const id = await startDemo(page, here.server.url);
   await expect(page.getByTestId(`tile-${id}`)).toContainText(/[1-9] N/, { timeout: 60_000 });
   await post(page, `sessions/${id}/${how}`);
