@@ -1,13 +1,11 @@
 #include "access/secret.hpp"
 
 #include <sodium.h>
-#include <algorithm>
 #include <array>
 #include <string_view>
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/hash.hpp"
 
 namespace ream::access {
 namespace {
@@ -20,6 +18,13 @@ constexpr int base64_url = sodium_base64_VARIANT_URLSAFE_NO_PADDING;
 std::string base64url(const unsigned char* bytes, size_t size) {
   std::string text(sodium_base64_ENCODED_LEN(size, base64_url), '\0');
   sodium_bin2base64(text.data(), text.size(), bytes, size, base64_url);
+  text.pop_back();  // the terminating zero
+  return text;
+}
+
+std::string hex(const unsigned char* bytes, size_t size) {
+  std::string text(2 * size + 1, '\0');
+  sodium_bin2hex(text.data(), text.size(), bytes, size);
   text.pop_back();  // the terminating zero
   return text;
 }
@@ -75,21 +80,15 @@ std::string random_key() {
   require_sodium();
   std::array<unsigned char, crypto_generichash_KEYBYTES> bytes{};
   randombytes_buf(bytes.data(), bytes.size());
-  std::string key;
-  for (const unsigned char byte : bytes) key += to_hex(byte).substr(14);
-  return key;
+  return hex(bytes.data(), bytes.size());
 }
 
 std::string keyed_digest(const std::string& key, const std::string& text) {
   require_sodium();
-  std::array<unsigned char, sizeof(uint64_t)> hash{};
-  std::array<unsigned char, crypto_generichash_BYTES> whole{};
-  crypto_generichash(whole.data(), whole.size(), reinterpret_cast<const unsigned char*>(text.data()),
+  std::array<unsigned char, crypto_generichash_BYTES> hash{};
+  crypto_generichash(hash.data(), hash.size(), reinterpret_cast<const unsigned char*>(text.data()),
                      text.size(), reinterpret_cast<const unsigned char*>(key.data()), key.size());
-  std::copy_n(whole.begin(), hash.size(), hash.begin());
-  std::string digits;
-  for (const unsigned char byte : hash) digits += to_hex(byte).substr(14);
-  return digits;
+  return hex(hash.data(), sizeof(uint64_t));
 }
 
 std::string random_id() {

@@ -72,9 +72,11 @@ Visitor Authorizer::visitor(const net::Request& request) const {
 void Authorizer::require_sight(const net::Request& request, const Route& route) const {
   if (!route.pattern.starts_with(one_session)) return;
   const std::string& id = request.parameters.at("id");
-  // Whoever stands beside a device may stop it.
-  if (route.urgency != net::Urgency::halt) require_unrated(request.caller, id);
-  if (access::is_staff(request.caller.role)) return;
+  // Only staff rates; whoever of them stands beside a device may stop it.
+  if (access::is_staff(request.caller.role)) {
+    if (route.urgency != net::Urgency::halt) require_unrated(request.caller, id);
+    return;
+  }
   const auto session = sessions_.session_of(id);
   if (session && !may_see(request.caller, *session)) refuse_unseen(id);
 }

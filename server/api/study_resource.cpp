@@ -201,7 +201,8 @@ net::Response get_validity(const Services& services, const net::Request& request
   services.audit(request, "study.validity", id_of(request), form);
   if (form == "sessions") return csv_reply(validity_sessions_table(input), "sessions.csv");
   if (form == "ratings") return csv_reply(validity_ratings_table(input), "ratings.csv");
-  const study::ValidityReport report = validity_report(input);
+  study::ValidityReport report;
+  services.executor.run([&] { report = validity_report(input); });
   if (form == "numbers") return csv_reply(validity_numbers_table(report), "numbers.csv");
   return net::json_response(200, validity_json(report));
 }

@@ -28,7 +28,7 @@ std::vector<render::VertexColour> deviation_colours(std::span<const int8_t> code
 /// Thickness of a wall, from the thinnest: the darker the thinner, ColorBrewer YlGnBu; the thinnest is
 /// hatched.
 const std::vector<DeviationClass>& wall_classes();
-/// "under 2 mm (hatched), 2 to 5 mm, ...".
+/// "up to 2 mm (hatched), 2 to 5 mm, ...".
 std::string wall_classes_in_words();
 /// Of codes of score::wall_codes; bone's own colour where nothing is known.
 std::vector<render::VertexColour> wall_colours(std::span<const int8_t> codes);

@@ -77,8 +77,7 @@ constexpr std::string_view own_component =
     "their sizes are ours";
 constexpr std::string_view joint_line_checked =
     "within half a voxel of the truth in 50 seeded reamings of formula bones; a component is taken to be 4 "
-    "mm "
-    "thick";
+    "mm thick";
 constexpr std::string_view compare = "to be compared with experts on the same simulator";
 
 constexpr Metric catalogue[] = {
@@ -236,8 +235,7 @@ constexpr Metric catalogue[] = {
      "by the same measure", bone, untouched_bone, percent_range, only_reported},
     {"plate_lost_percent", "Plate lost beyond the plan", "%",
      "Share of the plate's bone that the plan leaves under the planned component, less the share that is "
-     "left "
-     "under the achieved one; 0 where that is more.",
+     "left under the achieved one; 0 where that is more.",
      "readbyqxmd 29974217: removal increases micromotion (p = 0.043); limits are ours", judgement,
      limits_ours, bone, reamed_bone, percent_range, at_most(10.0, 40.0)},
     {"plate_thickness_mm", "Subchondral plate thickness", "mm",
@@ -267,8 +265,7 @@ constexpr Metric catalogue[] = {
      bone, reamed_bone, not_negative, at_most(0.0, 0.0)},
     {"vault_depth_mm", "Bone left in the vault", "mm",
      "Least bone left along the planned axis under the component's middle: within 6 mm of it, beside the "
-     "pilot "
-     "hole.",
+     "pilot hole.",
      no_limits, judgement, "as exact as the vault's far wall in the scan", bone, reamed_bone, not_negative,
      only_reported},
     {"wall_thickness_least_mm", "Thinnest wall", "mm",
@@ -289,10 +286,9 @@ constexpr Metric catalogue[] = {
      only_reported, Better::less},
     {"thrust_rate_percent_s", "Unevenness of thrust", "%/s",
      "Root mean square rate at which thrust changes, as a share of the mean thrust, over presses with at "
-     "least "
-     "5 N while the spindle turns in contact: from one mean over 50 ms to the next, without the first and "
-     "the "
-     "last quarter of a second of each press. 0 for a steady thrust.",
+     "least 5 N while the spindle turns in contact: from one mean over 50 ms to the next, without the first "
+     "and "
+     "the last quarter of a second of each press. 0 for a steady thrust.",
      "Trejos 2014: derivatives of force as measures of skill; the low-pass and the division by the mean are "
      "ours",
      published, rate_checked, handling, episode, not_negative, only_reported, Better::less},
@@ -368,8 +364,7 @@ constexpr Metric catalogue[] = {
     {"contact_before_spin_s", "Contact before spin", "s",
      "Time for which a standing reamer had touched bone when it was started there, with any force; breaks of "
      "up to 0.5 s part no contact. A standing reamer that is taken off the bone before it is started does "
-     "not "
-     "count: that is in 'Pressed on with a standing reamer'.",
+     "not count: that is in 'Pressed on with a standing reamer'.",
      "surgeons are taught to start the reamer before it touches bone", judgement, exact_sum, handling, ticks,
      not_negative, only_reported, Better::less},
     {"idle_time_s", "Time between contacts", "s",
@@ -388,8 +383,7 @@ constexpr Metric catalogue[] = {
      published, exact_sum, handling, ticks, not_negative, only_reported, Better::less},
     {"path_economy_contact_percent", "Economy of movement, in contact", "%",
      "How much deeper along the planned axis the tool's apex came while it touched bone, which is the "
-     "shortest "
-     "path that the cutting needs, over the path in contact.",
+     "shortest path that the cutting needs, over the path in contact.",
      economy, published, economy_checked, handling, episode, percent_range, only_reported, Better::more},
     {"path_economy_percent", "Economy of movement", "%",
      "The shortest path over the path of the whole session, from first approach to last withdrawal. The "

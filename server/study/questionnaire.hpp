@@ -18,9 +18,9 @@ struct QuestionnaireItem {
   Kind kind = Kind::likert;
   std::string section, words;
   bool required = true;
-  int points = 5;  ///< likert: 1 (low) to points (high)
-  std::string low, middle,
-      high;  ///< likert: words of the two ends, and of the point between; middle may be empty
+  int points = 5;               ///< likert: 1 (low) to points (high)
+  std::string low, high;        ///< likert: words of the two ends
+  std::string middle;           ///< likert: words of the point between; may be empty
   bool cannot_judge = false;    ///< likert: null is an answer
   std::vector<Option> options;  ///< choice
   bool several = false;         ///< choice: more than one may be chosen

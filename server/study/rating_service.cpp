@@ -19,8 +19,8 @@ std::string key_of(const Study& study, const std::string& label, const std::stri
   return access::keyed_digest(study.rating_key, label + "/" + session);
 }
 
-bool is_rated(const Study& study, const session::SessionRecord& session, const nlohmann::json& metrics) {
-  if (!carried_out(session) || !touched_bone(metrics)) return false;
+bool is_rated(const Study& study, const session::SessionRecord& session) {
+  if (!carried_out(session)) return false;
   if (!study.settings.design) return true;
   const auto phase = phase_from(session.request.phase);
   return phase && is_test(*phase);
@@ -51,7 +51,7 @@ Rater RatingService::add(const net::Caller& caller, const std::string& study_id,
       throw Error(ErrorKind::conflict, user->name + " rates study '" + study_id + "' already");
   const std::string label = table_.add_rater(study_id, user_id, user->name);
   const store::RaterRow row{label, user_id, user->name};
-  return {label, user_id, user->name, 0, static_cast<int64_t>(queue_of(study, row).size())};
+  return {label, user_id, user->name, 0, static_cast<int64_t>(queue_of(study, row, rateable(study)).size())};
 }
 
 void RatingService::remove(const std::string& study, const std::string& label) {
@@ -62,9 +62,10 @@ void RatingService::remove(const std::string& study, const std::string& label) {
 
 std::vector<Rater> RatingService::raters(const net::Caller& caller, const std::string& study_id) const {
   const Study study = studies_.get(caller, study_id);
+  const std::vector<session::SessionRecord> sessions = rateable(study);
   std::vector<Rater> list;
   for (const store::RaterRow& row : table_.raters(study_id)) {
-    const std::vector<QueuedRating> queue = queue_of(study, row);
+    const std::vector<QueuedRating> queue = queue_of(study, row, sessions);
     const auto rated =
         std::count_if(queue.begin(), queue.end(), [](const auto& one) { return one.answers.has_value(); });
     list.push_back({row.label, row.user_id, row.name, rated, static_cast<int64_t>(queue.size())});
@@ -72,18 +73,25 @@ std::vector<Rater> RatingService::raters(const net::Caller& caller, const std::s
   return list;
 }
 
-std::vector<QueuedRating> RatingService::queue_of(const Study& study, const store::RaterRow& rater) const {
+std::vector<session::SessionRecord> RatingService::rateable(const Study& study) const {
+  const std::set<std::string> codes = studies_.codes(study.id);
+  std::vector<session::SessionRecord> all = dependencies_->sessions(study.id);
+  std::erase_if(all, [&](const session::SessionRecord& session) {
+    return !codes.contains(session.request.participant) || !is_rated(study, session) ||
+           !touched_bone(dependencies_->metrics(session.request.id));
+  });
+  return all;
+}
+
+std::vector<QueuedRating> RatingService::queue_of(const Study& study, const store::RaterRow& rater,
+                                                  const std::vector<session::SessionRecord>& sessions) const {
   std::map<std::string, std::string> answers;
   for (const store::RatingRow& row : table_.ratings(study.id))
     if (row.rater == rater.label) answers[row.session] = row.answers;
   std::vector<QueuedRating> queue;
-  const std::set<std::string> codes = studies_.codes(study.id);
-  for (const session::SessionRecord& session : dependencies_->sessions(study.id)) {
+  for (const session::SessionRecord& session : sessions) {
+    if (!rater.user_id.empty() && session.request.trainee_id == rater.user_id) continue;
     const std::string& id = session.request.id;
-    if (!is_rated(study, session, dependencies_->metrics(id)) ||
-        !codes.contains(session.request.participant) ||
-        (!rater.user_id.empty() && session.request.trainee_id == rater.user_id))
-      continue;
     const auto given = answers.find(id);
     queue.push_back({key_of(study, rater.label, id), id,
                      given == answers.end() ? std::nullopt : std::optional(parse_json(given->second))});
@@ -100,7 +108,7 @@ store::RaterRow RatingService::rater_of(const net::Caller& caller, const std::st
 
 std::vector<QueuedRating> RatingService::queue(const net::Caller& caller, const std::string& study_id) const {
   const Study study = studies_.get(caller, study_id);
-  return queue_of(study, rater_of(caller, study_id));
+  return queue_of(study, rater_of(caller, study_id), rateable(study));
 }
 
 QueuedRating RatingService::queued(const net::Caller& caller, const std::string& study,

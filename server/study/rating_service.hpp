@@ -56,7 +56,10 @@ class RatingService {
   bool hides(const net::Caller& caller, const session::SessionRequest& session) const;
 
  private:
-  std::vector<QueuedRating> queue_of(const Study& study, const store::RaterRow& rater) const;
+  /// All sessions of the study that anybody may rate.
+  std::vector<session::SessionRecord> rateable(const Study& study) const;
+  std::vector<QueuedRating> queue_of(const Study& study, const store::RaterRow& rater,
+                                     const std::vector<session::SessionRecord>& sessions) const;
   store::RaterRow rater_of(const net::Caller& caller, const std::string& study) const;
 
   store::RatingTable table_;

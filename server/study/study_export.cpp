@@ -1,15 +1,16 @@
 #include "study/study_export.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 
+#include "statistics/sample.hpp"
 #include "study/study_columns.hpp"
 #include "study/study_sessions.hpp"
 
 namespace ream::study {
 using nlohmann::json;
+using statistics::quantile;
 namespace {
 
 using Values = std::map<std::string, json>;
@@ -178,13 +179,6 @@ void add_groups(session::ExportTable& table, const Study& study, const std::stri
 }
 
 }  // namespace
-
-double quantile(const std::vector<double>& sorted, double share) {
-  const double place = share * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<size_t>(std::floor(place));
-  const size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
 
 StudyExport export_of(const Study& study, const std::vector<Participant>& participants,
                       const std::vector<session::SessionRecord>& sessions, const MetricsOfSession& metrics,

@@ -37,7 +37,4 @@ StudyExport export_of(const Study& study, const std::vector<Participant>& partic
 /// What the columns of all tables mean.
 nlohmann::json codebook_of(const Study& study, const StudyExport& all);
 
-/// The quantile `share` of sorted values, linear between neighbours (R's type 7). Not of none.
-double quantile(const std::vector<double>& sorted, double share);
-
 }  // namespace ream::study

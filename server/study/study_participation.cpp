@@ -89,6 +89,12 @@ void StudyService::withdraw(const std::string& id, const std::string& code) {
   table_.remove_participant(id, code);
 }
 
+std::vector<Participant> StudyService::everybody(const std::string& id) const {
+  std::vector<Participant> all;
+  for (const store::ParticipantRow& row : table_.participants(id)) all.push_back(participant_of(row));
+  return all;
+}
+
 std::vector<SessionRating> StudyService::ratings_of(const std::string& id) const {
   std::vector<SessionRating> ratings;
   for (const store::RatingRow& row : ratings_.ratings(id))
@@ -97,10 +103,8 @@ std::vector<SessionRating> StudyService::ratings_of(const std::string& id) const
 }
 
 StudyExport StudyService::everything(const Study& study) const {
-  std::vector<Participant> all;
-  for (const store::ParticipantRow& row : table_.participants(study.id)) all.push_back(participant_of(row));
   return export_of(
-      study, all, dependencies_->sessions(study.id),
+      study, everybody(study.id), dependencies_->sessions(study.id),
       [this](const std::string& id) { return dependencies_->metrics(id); }, ratings_of(study.id));
 }
 
@@ -120,10 +124,8 @@ StudyExport StudyService::export_all(const net::Caller& caller, const std::strin
 ValidityInput StudyService::validity_input(const net::Caller& caller, const std::string& id) const {
   const Study study = known(id);
   require_export(caller, study);
-  std::vector<Participant> all;
-  for (const store::ParticipantRow& row : table_.participants(id)) all.push_back(participant_of(row));
   return validity_input_of(
-      study, all, dependencies_->sessions(id),
+      study, everybody(id), dependencies_->sessions(id),
       [this](const std::string& session) { return dependencies_->metrics(session); }, ratings_of(id));
 }
 

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "score/metric_catalogue.hpp"
+#include "statistics/sample.hpp"
 #include "study/study_columns.hpp"
 #include "support/seed.hpp"
 
@@ -13,6 +14,7 @@ namespace ream::study {
 namespace {
 
 using nlohmann::json;
+using statistics::quantile;
 
 Study study() {
   Study made;
