@@ -5,7 +5,7 @@
 #
 # FOLDER holds two tables:
 #   sessions.csv  session, participant, experience (novice, intermediate, expert), arm, phase (pre, training,
-#                 post, retention), attempt (from 1; 0 or empty: not known), then a column a measure
+#                 post, retention), attempt (from 1; 0 or empty: not known), then a column per measure
 #   ratings.csv   rater, session, item, kind (scale: 1 to 5; check: 0 or 1), value
 # Writes rows "result,measure,statistic,value" to RESULT.csv, or prints them. docs/validity.md says what they mean.
 # The bootstrap's intervals differ from those of the report by what chance does: each draws for itself.
@@ -33,6 +33,10 @@ measures <- setdiff(names(sessions), c("session", "participant", "experience", "
 for (measure in measures) sessions[[measure]] <- suppressWarnings(as.numeric(sessions[[measure]]))
 if (is.null(sessions$attempt)) sessions$attempt <- "0"
 sessions$attempt <- ifelse(sessions$attempt == "", 0, suppressWarnings(as.numeric(sessions$attempt)))
+
+# Equal values do not spread; sd() may find what rounding makes of them.
+all_equal <- function(values) length(unique(values)) < 2
+spread <- function(values) if (all_equal(values)) 0 else sd(values)
 
 rows <- list()
 put <- function(result, measure, ...) {
@@ -84,15 +88,19 @@ agreement <- function(name, table) {
   n <- nrow(complete)
   k <- ncol(complete)
   put("agreement", name, subjects = n, raters = k, dropped = nrow(table) - n)
-  if (k < 2 || n < min_persons) return(invisible())
+  if (k < 2 || n < min_persons || all_equal(as.vector(complete))) return(invisible())
   long <- data.frame(value = as.vector(complete), subject = factor(rep(1:n, k)), rater = factor(rep(1:k, each = n)))
   squares <- summary(aov(value ~ subject + rater, data = long))[[1]][["Mean Sq"]]
   bms <- squares[1]
   jms <- squares[2]
   ems <- squares[3]
-  single <- (bms - ems) / (bms + (k - 1) * ems + k * (jms - ems) / n)
-  put("agreement", name, icc_single = single, icc_average = (bms - ems) / (bms + (jms - ems) / n))
-  if (!is.finite(single) || ems <= 1e-12 * (bms + jms)) return(invisible())
+  of_one <- bms + (k - 1) * ems + k * (jms - ems) / n
+  of_mean <- bms + (jms - ems) / n
+  rounding <- 1e-12 * (bms + jms)
+  if (min(of_one, of_mean) <= rounding) return(invisible())
+  single <- (bms - ems) / of_one
+  put("agreement", name, icc_single = single, icc_average = (bms - ems) / of_mean)
+  if (ems <= rounding) return(invisible())
   # McGraw & Wong 1996, table 7, case 2A.
   a <- k * single / (n * (1 - single))
   b <- 1 + k * single * (n - 1) / (n * (1 - single))
@@ -101,8 +109,11 @@ agreement <- function(name, table) {
   below <- qf(0.975, freedom, n - 1)
   low <- n * (bms - above * ems) / (above * (k * jms + (k * n - k - n) * ems) + n * bms)
   high <- n * (below * bms - ems) / (k * jms + (k * n - k - n) * ems + n * below * bms)
-  put_interval("agreement", name, "icc_single", c(low, high))
-  put_interval("agreement", name, "icc_average", k * c(low, high) / (1 + (k - 1) * c(low, high)))
+  # At its least value the ICC of one rater has no counterpart for the mean of k.
+  least <- -1 / (k - 1)
+  if (high <= least) return(invisible())
+  put_interval("agreement", name, "icc_single", c(max(low, least), high))
+  if (low > least) put_interval("agreement", name, "icc_average", k * c(low, high) / (1 + (k - 1) * c(low, high)))
 }
 for (i in seq_along(scale_items)) agreement(scale_items[i], scales[[i]])
 if (!is.null(total)) agreement("raters_total", total)
@@ -144,15 +155,16 @@ checklist <- function(name, table) {
   }
   kappa_of <- function(w) 1 - (1 - observed_of(w)) / (1 - expected_of(w))
   even <- rep(1 / n, n)
+  put("checklist", name, agreement = observed_of(even))
   if (1 - expected_of(even) < 1e-12) return(invisible())
   kappa <- kappa_of(even)
-  put("checklist", name, agreement = observed_of(even), kappa = kappa)
+  put("checklist", name, kappa = kappa)
   influence <- influence_of(kappa_of, n)
   # Two raters: the multinomial's large-sample variance; more: over subjects, as Gwet's.
   variance <- if (k == 2) sum(influence^2) / n^2 else sum(influence^2) / (n * (n - 1))
   if (variance <= 1e-12) return(invisible())
   reach <- (if (k == 2) qnorm(0.975) else qt(0.975, n - 1)) * sqrt(variance)
-  put_interval("checklist", name, "kappa", kappa + c(-1, 1) * reach)
+  put_interval("checklist", name, "kappa", pmin(1, pmax(-1, kappa + c(-1, 1) * reach)))
 }
 for (item in check_items) checklist(item, rating_matrix("check", item))
 
@@ -166,13 +178,28 @@ measures <- measures[sapply(measures, function(measure) any(!is.na(sessions[[mea
 
 # ---- persons
 
-# One value a participant: the mean of those sessions that are asked for. To 12 digits, so that means of the same
+# One value per participant: the mean of those sessions that are asked for. To 12 digits, so that means of the same
 # numbers in another order are equal, and so are ties among them.
 person_means <- function(measure, which) {
   kept <- which & !is.na(sessions[[measure]])
   if (!any(kept)) return(setNames(numeric(0), character(0)))
   means <- tapply(sessions[[measure]][kept], sessions$participant[kept], mean)
   setNames(signif(as.vector(means), 12), names(means))
+}
+
+# What groups are compared by: values before a study has changed anything. Where sessions have phases, those of the
+# phase pre; where none is of that phase, each participant's first session with a value, by attempt (not known: last),
+# then in the order of the table. Without phases, all sessions.
+group_means <- function(measure, experience) {
+  which <- sessions$experience == experience & !is.na(sessions[[measure]])
+  if (any(sessions$phase == "pre")) {
+    which <- which & sessions$phase == "pre"
+  } else if (any(sessions$phase != "")) {
+    by_attempt <- order(ifelse(sessions$attempt > 0, sessions$attempt, Inf))
+    found <- by_attempt[which[by_attempt]]
+    which <- seq_along(which) %in% found[!duplicated(sessions$participant[found])]
+  }
+  person_means(measure, which)
 }
 
 # The non-centrality at which t is reached with chance p.
@@ -219,15 +246,15 @@ receiver <- function(measure, experts, novices) {
 
 known_groups <- function(measure) {
   result <- "known_groups"
-  experts <- person_means(measure, sessions$experience == "expert")
-  novices <- person_means(measure, sessions$experience == "novice")
+  experts <- group_means(measure, "expert")
+  novices <- group_means(measure, "novice")
   put(result, measure, n_experts = length(experts), n_novices = length(novices))
-  if (length(experts) >= min_persons) put(result, measure, mean_experts = mean(experts), sd_experts = sd(experts))
-  if (length(novices) >= min_persons) put(result, measure, mean_novices = mean(novices), sd_novices = sd(novices))
+  if (length(experts) >= min_persons) put(result, measure, mean_experts = mean(experts), sd_experts = spread(experts))
+  if (length(novices) >= min_persons) put(result, measure, mean_novices = mean(novices), sd_novices = spread(novices))
   if (min(length(experts), length(novices)) < min_persons) return(invisible())
   m <- length(experts)
   n <- length(novices)
-  if (sd(experts) + sd(novices) > 0) {
+  if (spread(experts) + spread(novices) > 0) {
     welch <- t.test(experts, novices)
     put(result, measure, difference = mean(experts) - mean(novices), welch_p = welch$p.value)
     put_interval(result, measure, "difference", welch$conf.int)
@@ -241,19 +268,19 @@ known_groups <- function(measure) {
       put_interval(result, measure, "hedges_g", j * to_d * c(noncentrality(t, freedom, 0.975),
                                                              noncentrality(t, freedom, 0.025)))
   }
-  if (length(unique(c(experts, novices))) > 1)
+  if (!all_equal(c(experts, novices)))
     put(result, measure, mann_whitney_p = suppressWarnings(wilcox.test(experts, novices)$p.value))
   put(result, measure, cliffs_delta = mean(sign(outer(experts, novices, "-"))))
   receiver(measure, experts, novices)
 }
 
 benchmark <- function(measure) {
-  experts <- sort(person_means(measure, sessions$experience == "expert"))
+  experts <- sort(group_means(measure, "expert"))
   n <- length(experts)
   put("benchmarks", measure, n = n)
   if (n < min_persons) return(invisible())
   put("benchmarks", measure, mean = mean(experts), median = median(experts))
-  put_interval("benchmarks", measure, "mean", if (sd(experts) > 0) t.test(experts)$conf.int else rep(mean(experts), 2))
+  if (!all_equal(experts)) put_interval("benchmarks", measure, "mean", t.test(experts)$conf.int)
   k <- qbinom(0.025, n, 0.5)
   if (k > 0 && pbinom(k, n, 0.5) <= 0.025) k <- k + 1
   if (k > 0) put_interval("benchmarks", measure, "median", experts[c(k, n + 1 - k)])
@@ -271,7 +298,7 @@ correlation <- function(measure) {
   values <- person_means(measure, both)
   totals <- person_means("raters_total", both)
   put("correlations", measure, n = length(values))
-  if (length(values) < 3 || length(unique(values)) < 2 || length(unique(totals)) < 2) return(invisible())
+  if (length(values) < 3 || all_equal(values) || all_equal(totals)) return(invisible())
   pearson <- cor.test(values, totals)
   put("correlations", measure, pearson = pearson$estimate, pearson_p = pearson$p.value)
   if (length(values) > 3) put_interval("correlations", measure, "pearson", pearson$conf.int)
@@ -297,11 +324,19 @@ pairs_of <- function(arm, phase, measure) {
   data.frame(before = unname(before[both]), after = unname(after[both]), arm = rep(arm, length(both)))
 }
 
+# After less before. Where they differ by rounding only, all are as the first.
+gains_of <- function(pairs) {
+  gains <- pairs$after - pairs$before
+  if (length(gains) > 0 && diff(range(gains)) <= 1e-10 * max(abs(pairs$before), abs(pairs$after)))
+    gains[] <- gains[1]
+  gains
+}
+
 change <- function(arm, phase, measure) {
   result <- paste0("changes:", arm, ":", phase)
   pairs <- pairs_of(arm, phase, measure)
   put(result, measure, n = nrow(pairs))
-  if (nrow(pairs) < min_persons || sd(pairs$after - pairs$before) == 0) return(invisible())
+  if (nrow(pairs) < min_persons || all_equal(gains_of(pairs))) return(invisible())
   test <- t.test(pairs$after, pairs$before, paired = TRUE)
   put(result, measure, change = test$estimate, paired_p = test$p.value)
   put_interval(result, measure, "change", test$conf.int)
@@ -313,16 +348,19 @@ arm_difference <- function(first, second, phase, measure) {
   b <- pairs_of(second, phase, measure)
   put(result, measure, n_first = nrow(a), n_second = nrow(b))
   if (min(nrow(a), nrow(b)) < min_persons) return(invisible())
-  gain_a <- a$after - a$before
-  gain_b <- b$after - b$before
-  if (sd(gain_a) + sd(gain_b) > 0) {
+  gain_a <- gains_of(a)
+  gain_b <- gains_of(b)
+  if (spread(gain_a) + spread(gain_b) > 0) {
     test <- t.test(gain_a, gain_b)
     put(result, measure, difference = mean(gain_a) - mean(gain_b), welch_p = test$p.value)
     put_interval(result, measure, "difference", test$conf.int)
   }
+  if ((all_equal(a$before) && all_equal(b$before)) || (all_equal(a$after) && all_equal(b$after))) return(invisible())
   both <- rbind(a, b)
   fit <- lm(after ~ before + I(as.numeric(arm == first)), data = both)
   if (any(is.na(coef(fit)))) return(invisible())
+  within_arms <- deviance(lm(after ~ arm, data = both))
+  if (deviance(fit) <= 1e-12 * within_arms) return(invisible())
   row <- summary(fit)$coefficients[3, ]
   put(result, measure, ancova = row[1], ancova_p = row[4])
   put_interval(result, measure, "ancova", confint(fit)[3, ])
@@ -346,11 +384,14 @@ if (any(sessions$arm != "" & sessions$phase == "pre"))
 curve_of <- deriv(~ plateau + (start - plateau) * exp(-rate * x), c("plateau", "start", "rate"),
                   function(plateau, start, rate, x) NULL)
 
+# Of those who learn, without tests; attempts of which there are enough values.
 learning <- function(measure) {
-  kept <- sessions$attempt > 0 & !is.na(sessions[[measure]])
-  means <- if (any(kept)) tapply(sessions[[measure]][kept], sessions$attempt[kept], mean) else numeric(0)
+  kept <- sessions$attempt > 0 & !is.na(sessions[[measure]]) & sessions$experience != "expert" &
+    !(sessions$phase %in% c("pre", "post", "retention"))
+  by_attempt <- split(sessions[[measure]][kept], sessions$attempt[kept])
+  means <- signif(vapply(Filter(function(values) length(values) >= min_persons, by_attempt), mean, 0), 12)
   put("learning", measure, attempts = length(means))
-  if (length(means) < 5 || length(unique(means)) < 2) return(invisible())
+  if (length(means) < 5 || all_equal(means)) return(invisible())
   curve <- data.frame(y = as.vector(means), x = as.numeric(names(means)) - 1)
   # Starts from several rates; the fit with the least squares counts, unless a limit of the rates fits better.
   line_at <- function(rate) lm(y ~ exp(-rate * x), data = curve)

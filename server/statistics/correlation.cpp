@@ -1,6 +1,5 @@
 #include "statistics/correlation.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -9,13 +8,6 @@
 #include "statistics/sample.hpp"
 
 namespace ream::statistics {
-namespace {
-
-bool all_equal(std::span<const double> values) {
-  return std::all_of(values.begin(), values.end(), [&](double value) { return value == values.front(); });
-}
-
-}  // namespace
 
 Answer<Correlation> pearson(std::span<const double> x, std::span<const double> y, double confidence) {
   const double tail = tail_of(confidence);

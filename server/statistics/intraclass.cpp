@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
 #include "statistics/distributions.hpp"
@@ -50,6 +51,30 @@ Interval interval_of_single(const IntraclassCorrelation& icc, double tail) {
 /// Of the mean of k raters, from that of one (Spearman-Brown).
 double stepped_up(double single, double k) { return k * single / (1.0 + (k - 1.0) * single); }
 
+bool ratings_differ(const std::vector<std::vector<double>>& rows) {
+  for (const auto& row : rows)
+    for (const double value : row)
+      if (value != rows.front().front()) return true;
+  return false;
+}
+
+/// Adds what intervals there are, and says why there is not more. An ICC of one rater is over -1 / (k - 1);
+/// at that value the one of the mean of k raters has its pole.
+std::string add_agreement_intervals(IntraclassCorrelation& icc, double tail) {
+  const double k = static_cast<double>(icc.raters), least = -1.0 / (k - 1.0);
+  Interval single = interval_of_single(icc, tail);
+  if (!(single.high > least)) return "the ratings are too few for an interval of agreement";
+  if (single.low > least) {
+    icc.single_interval = single;
+    icc.average_interval = Interval{stepped_up(single.low, k), stepped_up(single.high, k)};
+    return "";
+  }
+  single.low = least;
+  icc.single_interval = single;
+  return "the interval of one rater's agreement goes down to its lowest possible value, so that the "
+         "agreement of the mean of all raters has no interval";
+}
+
 }  // namespace
 
 CompleteRatings complete_rows(const std::vector<RatingRow>& ratings) {
@@ -80,6 +105,9 @@ Answer<IntraclassCorrelation> intraclass_correlation(const std::vector<RatingRow
   icc.subjects = complete.rows.size();
   icc.raters = complete.rows.front().size();
   icc.dropped = complete.dropped;
+  if (!ratings_differ(complete.rows))
+    return {std::nullopt,
+            "the ratings do not differ between subjects or raters, so that agreement has no measure"};
   fill_mean_squares(complete.rows, icc);
   const double n = static_cast<double>(icc.subjects), k = static_cast<double>(icc.raters);
   const double of_raters = (icc.rater_square - icc.error_square) / n;
@@ -87,15 +115,14 @@ Answer<IntraclassCorrelation> intraclass_correlation(const std::vector<RatingRow
   const double rounding = 1e-12 * (icc.subject_square + icc.rater_square);
   if (all_of_one <= rounding || icc.subject_square + of_raters <= rounding)
     return {std::nullopt,
-            "the ratings do not differ between subjects or raters, so that agreement has no measure"};
+            "the means of subjects and of raters differ by less than chance alone would make them, so that "
+            "agreement has no measure"};
   icc.single = (icc.subject_square - icc.error_square) / all_of_one;
   icc.average = (icc.subject_square - icc.error_square) / (icc.subject_square + of_raters);
   if (icc.error_square <= rounding)
     return {icc, "raters differ by nothing but a constant, which has no interval"};
-  icc.single_interval = interval_of_single(icc, tail);
-  icc.average_interval =
-      Interval{stepped_up(icc.single_interval->low, k), stepped_up(icc.single_interval->high, k)};
-  return {icc, ""};
+  std::string note = add_agreement_intervals(icc, tail);
+  return {icc, std::move(note)};
 }
 
 }  // namespace ream::statistics

@@ -29,8 +29,11 @@ struct IntraclassCorrelation {
   double subject_square = 0.0, rater_square = 0.0, error_square = 0.0;  ///< mean squares of the two-way table
 };
 
-/// Without an answer for fewer than two raters, fewer than two complete subjects, or ratings that are all
-/// equal; without intervals where raters differ by nothing but a constant.
+/// Without an answer for fewer than two raters, fewer than two complete subjects, ratings that are all equal,
+/// or means of subjects and raters that differ by less than error alone would make them (the denominator of
+/// an ICC is then not over 0). Without intervals where raters differ by nothing but a constant. An interval
+/// of one rater ends at -1 / (k - 1), the least that there is; one that reaches it leaves the mean of k
+/// without.
 Answer<IntraclassCorrelation> intraclass_correlation(const std::vector<RatingRow>& ratings,
                                                      double confidence = 0.95);
 

@@ -1,5 +1,6 @@
 #include "statistics/kappa.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
@@ -76,7 +77,7 @@ Answer<Kappa> with_interval(Kappa kappa, double variance, double reach_in_errors
   if (variance <= 1e-15) return {kappa, "agreement does not vary between subjects, which has no interval"};
   kappa.standard_error = std::sqrt(variance);
   const double reach = reach_in_errors * *kappa.standard_error;
-  kappa.interval = Interval{kappa.kappa - reach, kappa.kappa + reach};
+  kappa.interval = Interval{std::max(-1.0, kappa.kappa - reach), std::min(1.0, kappa.kappa + reach)};
   return {kappa, ""};
 }
 

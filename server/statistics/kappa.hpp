@@ -14,7 +14,7 @@ struct Kappa {
   double observed = 0.0;  ///< share of agreement, weighted
   double expected = 0.0;  ///< that of chance
   std::optional<double> standard_error;
-  std::optional<Interval> interval;  ///< not cut off at 1
+  std::optional<Interval> interval;  ///< cut off at -1 and 1
 };
 
 /// How much two categories apart count as agreement: none; 1 - d / (c - 1); 1 - (d / (c - 1))^2.

@@ -1,5 +1,6 @@
 #include "statistics/mean_tests.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -9,17 +10,28 @@
 namespace ream::statistics {
 namespace {
 
+/// Of the largest value: gains that differ by less differ by rounding, of values to 12 digits, too.
+constexpr double rounding_of_gains = 1e-10;
+
 MeanDifference tested(double difference, double error, double freedom, double tail) {
   const double reach = t_quantile(1.0 - tail, freedom) * error;
   const double t = difference / error;
   return {difference, t, freedom, two_sided_t_p(t, freedom), {difference - reach, difference + reach}};
 }
 
+/// After less before. Where they differ by rounding only, all are as the first.
 std::vector<double> gains_of(std::span<const double> before, std::span<const double> after) {
   if (before.size() != after.size())
     throw Error(ErrorKind::invalid_input, "a change needs as many values before as after");
   std::vector<double> gains;
-  for (size_t i = 0; i < before.size(); ++i) gains.push_back(after[i] - before[i]);
+  double largest = 0.0;
+  for (size_t i = 0; i < before.size(); ++i) {
+    gains.push_back(after[i] - before[i]);
+    largest = std::max({largest, std::abs(before[i]), std::abs(after[i])});
+  }
+  if (gains.empty()) return gains;
+  const auto [least, most] = std::minmax_element(gains.begin(), gains.end());
+  if (*most - *least <= rounding_of_gains * largest) std::fill(gains.begin(), gains.end(), gains.front());
   return gains;
 }
 

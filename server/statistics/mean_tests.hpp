@@ -21,7 +21,7 @@ Answer<MeanDifference> welch_test(std::span<const double> first, std::span<const
                                   double confidence = 0.95);
 
 /// Mean of what each gained, after less before (Student 1908). As many values before as after, in the same
-/// order; two pairs or more, with gains that differ.
+/// order; two pairs or more, with gains that differ by more than rounding (1e-10 of the largest value).
 Answer<MeanDifference> paired_test(std::span<const double> before, std::span<const double> after,
                                    double confidence = 0.95);
 

@@ -25,16 +25,19 @@ std::vector<size_t> order_of(std::span<const double> values) {
 
 }  // namespace
 
+bool all_equal(std::span<const double> values) {
+  return std::all_of(values.begin(), values.end(), [&](double value) { return value == values.front(); });
+}
+
 double mean_of(std::span<const double> values) {
-  return values.empty()
-             ? 0.0
-             : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  if (values.empty()) return 0.0;
+  if (all_equal(values)) return values.front();
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 Spread spread_of(std::span<const double> values) {
   Spread result;
-  for (const double value : values) result.mean += value;
-  result.mean /= static_cast<double>(values.size());
+  result.mean = mean_of(values);
   double squares = 0.0;
   for (const double value : values) squares += (value - result.mean) * (value - result.mean);
   result.sd = std::sqrt(squares / static_cast<double>(values.size() - 1));
@@ -88,6 +91,7 @@ Answer<MeanEstimate> mean_estimate(std::span<const double> values, double confid
   const double n = static_cast<double>(values.size());
   const double reach = t_quantile(1.0 - tail, n - 1.0) * spread.sd / std::sqrt(n);
   estimate.sd = spread.sd;
+  if (!(spread.sd > 0.0)) return {estimate, "all values are equal, so that their mean has no interval"};
   estimate.interval = Interval{estimate.mean - reach, estimate.mean + reach};
   return {estimate, ""};
 }

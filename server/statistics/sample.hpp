@@ -8,14 +8,18 @@
 
 namespace ream::statistics {
 
-/// 0 of none.
+/// 0 of none. Of equal values it is that value, without rounding.
 double mean_of(std::span<const double> values);
 
-/// Mean and standard deviation (n - 1) of at least two values.
+/// Mean and standard deviation (n - 1) of at least two values. Of equal values the deviation is 0, without
+/// rounding.
 struct Spread {
   double mean = 0.0, sd = 0.0;
 };
 Spread spread_of(std::span<const double> values);
+
+/// Whether no value differs from the first; true of none.
+bool all_equal(std::span<const double> values);
 
 /// Of at least one value; the middle between the two middle ones of an even number.
 double median_of(std::span<const double> values);
@@ -30,12 +34,12 @@ std::vector<double> ranks_of(std::span<const double> values);
 /// sequentially rejective multiple test procedure"). In the order given.
 std::vector<double> adjusted_by_holm(std::span<const double> p_values);
 
-/// A mean with its t interval: mean +- t(n - 1) sd / sqrt(n).
+/// A mean with its t interval: mean +- t(n - 1) sd / sqrt(n). Equal values have none.
 struct MeanEstimate {
   size_t n = 0;
   double mean = 0.0;
-  std::optional<double> sd;  ///< empty for one value, as the interval
-  std::optional<Interval> interval;
+  std::optional<double> sd;          ///< empty for one value
+  std::optional<Interval> interval;  ///< empty for one value, and where all are equal
 };
 Answer<MeanEstimate> mean_estimate(std::span<const double> values, double confidence = 0.95);
 

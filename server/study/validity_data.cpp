@@ -56,6 +56,15 @@ void check_sessions(const std::vector<RatedSession>& sessions) {
   }
 }
 
+template <typename Condition>
+bool any_session(const std::vector<RatedSession>& sessions, const Condition& has) {
+  return std::any_of(sessions.begin(), sessions.end(), has);
+}
+
+bool comes_before(const RatedSession& one, const RatedSession& other) {
+  return one.attempt > 0 && (other.attempt <= 0 || one.attempt < other.attempt);
+}
+
 }  // namespace
 
 void check_validity_input(const ValidityInput& input) {
@@ -119,6 +128,29 @@ std::vector<std::string> measures_of(const std::vector<RatedSession>& sessions) 
   return {names.begin(), names.end()};
 }
 
+std::map<std::string, double> group_means(const std::vector<RatedSession>& sessions,
+                                          const std::string& experience, const std::string& measure) {
+  const auto value_of_group = [&](const RatedSession& session) {
+    return session.experience == experience ? measure_in(session, measure) : std::nullopt;
+  };
+  if (any_session(sessions, [](const RatedSession& session) { return session.phase == "pre"; }))
+    return person_means(sessions, [&](const RatedSession& session) {
+      return session.phase == "pre" ? value_of_group(session) : std::nullopt;
+    });
+  if (!any_session(sessions, [](const RatedSession& session) { return !session.phase.empty(); }))
+    return person_means(sessions, value_of_group);
+  std::map<std::string, const RatedSession*> first;
+  for (const RatedSession& session : sessions) {
+    if (!value_of_group(session)) continue;
+    const auto [entry, fresh] = first.emplace(session.participant, &session);
+    if (!fresh && comes_before(session, *entry->second)) entry->second = &session;
+  }
+  return person_means(sessions, [&](const RatedSession& session) {
+    const auto found = first.find(session.participant);
+    return found != first.end() && found->second == &session ? value_of_group(session) : std::nullopt;
+  });
+}
+
 RatingTable::RatingTable(const ValidityInput& input, ItemKind kind) {
   const std::map<std::string, ItemKind> kinds = kinds_of(input.items);
   std::set<std::string> raters, sessions;
@@ -148,18 +180,18 @@ RatingTable RatingTable::of_item(const ValidityInput& input, const RatedItem& it
 RatingTable RatingTable::of_total(const ValidityInput& input) {
   RatingTable table(input, ItemKind::scale);
   const std::map<std::string, ItemKind> kinds = kinds_of(input.items);
-  const auto scales = static_cast<size_t>(std::count_if(
-      input.items.begin(), input.items.end(), [](const auto& item) { return item.kind == ItemKind::scale; }));
+  std::set<std::string> scales;
   std::map<std::pair<std::string, std::string>, size_t> rated;
   for (const Rating& rating : input.ratings) {
     if (kinds.at(rating.item) != ItemKind::scale) continue;
     std::optional<double>& sum = table.cell(rating);
     sum = sum.value_or(0.0) + rating.value;
     ++rated[{rating.session, rating.rater}];
+    scales.insert(rating.item);
   }
   for (size_t i = 0; i < table.sessions_.size(); ++i)
     for (size_t j = 0; j < table.raters_.size(); ++j)
-      if (rated[{table.sessions_[i], table.raters_[j]}] != scales) table.rows_[i][j].reset();
+      if (rated[{table.sessions_[i], table.raters_[j]}] != scales.size()) table.rows_[i][j].reset();
   return table;
 }
 

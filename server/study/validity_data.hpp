@@ -13,7 +13,7 @@ namespace ream::study {
 void check_validity_input(const ValidityInput& input);
 
 /// The sessions with the mean of the raters' totals among their measures, where a rater has rated all scale
-/// items.
+/// items of which there is any rating.
 std::vector<RatedSession> with_raters_total(const ValidityInput& input);
 
 /// Names of all measures, sorted.
@@ -41,12 +41,19 @@ std::map<std::string, double> person_means(const std::vector<RatedSession>& sess
   return means;
 }
 
+/// What groups are compared by: a value of each participant of this experience (by code), before a study has
+/// changed anything. Where sessions have phases, the mean of those of the phase pre; where none is of that
+/// phase, the first session with a value, by attempt (not known: last), then in the order given. Without
+/// phases, the mean of all sessions.
+std::map<std::string, double> group_means(const std::vector<RatedSession>& sessions,
+                                          const std::string& experience, const std::string& measure);
+
 /// What raters say of sessions, a row for each session that anybody rated so.
 class RatingTable {
  public:
   /// Of one item. Raters and sessions are those of the table of all items of its kind.
   static RatingTable of_item(const ValidityInput& input, const RatedItem& item);
-  /// Of the sum of all scale items; empty where a rater has left an item out.
+  /// Of the sum of all scale items of which there is any rating; empty where a rater has left one out.
   static RatingTable of_total(const ValidityInput& input);
 
   const std::vector<statistics::RatingRow>& rows() const { return rows_; }

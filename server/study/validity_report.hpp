@@ -19,7 +19,7 @@ struct RatedSession {
   int attempt = 0;                         ///< the participant's first is 1; 0: not known
 };
 
-/// `scale`: 1 to 5; the sum of all is a rater's total. `check`: 0 or 1.
+/// `scale`: 1 to 5; the sum of all that anybody rated is a rater's total. `check`: 0 or 1.
 enum class ItemKind { scale, check };
 
 struct RatedItem {
@@ -48,14 +48,15 @@ inline constexpr size_t min_persons = 3;
 
 /// Numbers of one measure (or item) by name, and sentences about those that are missing.
 struct ValidityLine {
-  std::string subject;  ///< "A:post", "A-B:post", where there is more than one line a measure; else empty
+  std::string subject;  ///< "A:post", "A-B:post", where a measure has more than one line; else empty
   std::string measure;
   std::vector<std::pair<std::string, double>> values;
   std::vector<std::string> notes;
 };
 
 /// Whether scores mean anything. Each participant counts once in whatever is said of persons: with the mean
-/// of the sessions that are asked for. docs/validity.md says what each number means.
+/// of the sessions that are asked for; learning is of the means of attempts. docs/validity.md says what each
+/// number means.
 struct ValidityReport {
   std::vector<ValidityLine> agreement;        ///< raters on each scale item and on the total (ICC)
   std::vector<ValidityLine> checklist;        ///< raters on each checklist item (kappa)
@@ -64,7 +65,7 @@ struct ValidityReport {
   std::vector<ValidityLine> changes;          ///< from pre to post and to retention, by arm
   std::vector<ValidityLine> arm_differences;  ///< of these changes, for each two arms
   std::vector<ValidityLine> benchmarks;       ///< what experts reach
-  std::vector<ValidityLine> learning;         ///< curves over attempts
+  std::vector<ValidityLine> learning;         ///< curves over attempts, without experts and tests
   std::vector<std::string> notes;             ///< why whole parts are missing
 };
 

@@ -29,12 +29,15 @@ std::vector<double> values_of(const std::map<std::string, double>& by_person) {
   return values;
 }
 
-/// One value a participant of this experience, in the order of their codes.
+/// One value of each participant of this experience, in the order of their codes.
 std::vector<double> group_values(const std::vector<RatedSession>& sessions, const std::string& experience,
                                  const std::string& measure) {
-  return values_of(person_means(sessions, [&](const RatedSession& session) {
-    return session.experience == experience ? measure_in(session, measure) : std::nullopt;
-  }));
+  return values_of(group_means(sessions, experience, measure));
+}
+
+std::string too_few_rated(size_t found) {
+  return "sessions that all raters rated: " + std::to_string(found) + "; at least " +
+         std::to_string(min_persons) + " are needed";
 }
 
 std::string too_few(const std::string& whom, size_t found) {
@@ -49,7 +52,7 @@ ValidityLine agreement_line(const std::string& measure, const RatingTable& table
   add_value(line, "raters", count_of(table.raters()));
   add_value(line, "dropped", count_of(table.rows().size() - complete));
   if (table.raters() > 1 && complete < min_persons) {
-    add_note(line, too_few("sessions that all raters rated,", complete));
+    add_note(line, too_few_rated(complete));
     return line;
   }
   const auto icc = statistics::intraclass_correlation(table.rows());
@@ -83,6 +86,17 @@ Answer<statistics::Kappa> kappa_of(const std::vector<std::vector<double>>& rows,
   return statistics::fleiss_kappa(counts);
 }
 
+/// Of two raters each, over all rows (of 0 and 1).
+double share_of_equal_pairs(const std::vector<std::vector<double>>& rows) {
+  double share = 0.0;
+  for (const auto& row : rows) {
+    const double raters = count_of(row.size());
+    const double yes = static_cast<double>(std::count(row.begin(), row.end(), 1.0)), no = raters - yes;
+    share += (yes * (yes - 1.0) + no * (no - 1.0)) / (raters * (raters - 1.0));
+  }
+  return share / count_of(rows.size());
+}
+
 ValidityLine checklist_line(const std::string& item, const RatingTable& table) {
   ValidityLine line{"", item, {}, {}};
   const statistics::CompleteRatings complete = statistics::complete_rows(table.rows());
@@ -94,13 +108,13 @@ ValidityLine checklist_line(const std::string& item, const RatingTable& table) {
     return line;
   }
   if (complete.rows.size() < min_persons) {
-    add_note(line, too_few("sessions that all raters rated,", complete.rows.size()));
+    add_note(line, too_few_rated(complete.rows.size()));
     return line;
   }
+  add_value(line, "agreement", share_of_equal_pairs(complete.rows));
   const Answer<statistics::Kappa> kappa = kappa_of(complete.rows, table.raters());
   add_note(line, kappa.note);
   if (!kappa) return line;
-  add_value(line, "agreement", kappa->observed);
   add_value(line, "kappa", kappa->kappa);
   add_interval(line, "kappa", kappa->interval);
   return line;
@@ -194,6 +208,7 @@ ValidityLine benchmark_line(const std::string& measure, const std::vector<double
     return line;
   }
   const auto mean = statistics::mean_estimate(experts);
+  add_note(line, mean.note);
   add_value(line, "mean", mean->mean);
   add_interval(line, "mean", mean->interval);
   const auto median = statistics::median_estimate(experts);
@@ -203,17 +218,27 @@ ValidityLine benchmark_line(const std::string& measure, const std::vector<double
   return line;
 }
 
+/// Whether a session shows how people learn: not an expert's, and no test.
+bool shows_learning(const RatedSession& session) {
+  static const std::set<std::string> tests = {"pre", "post", "retention"};
+  return session.attempt > 0 && session.experience != "expert" && !tests.contains(session.phase);
+}
+
 ValidityLine learning_line(const std::vector<RatedSession>& sessions, const std::string& measure) {
   std::map<int, std::vector<double>> by_attempt;
   for (const RatedSession& session : sessions)
-    if (const auto value = measure_in(session, measure); value && session.attempt > 0)
+    if (const auto value = measure_in(session, measure); value && shows_learning(session))
       by_attempt[session.attempt].push_back(*value);
   std::vector<double> attempts, means;
-  for (const auto& [attempt, values] : by_attempt) {
-    attempts.push_back(attempt);
-    means.push_back(statistics::mean_of(values));
-  }
   ValidityLine line{"", measure, {}, {}};
+  for (const auto& [attempt, values] : by_attempt) {
+    if (values.size() < min_persons) {
+      add_note(line, "attempts with fewer than " + std::to_string(min_persons) + " values are left out");
+      continue;
+    }
+    attempts.push_back(attempt);
+    means.push_back(to_twelve_digits(statistics::mean_of(values)));
+  }
   add_value(line, "attempts", count_of(attempts.size()));
   const auto fit = statistics::learning_fit(attempts, means);
   add_note(line, fit.note);

@@ -12,9 +12,10 @@ namespace ream::test {
 struct SimulatedStudy {
   uint32_t seed = 1;
   int experts = 10, novices = 10, raters = 2;
-  double expert_skill = 1.5;     ///< over that of novices, in standard deviations of persons
-  double trained_gain = 1.0;     ///< of arm "guided" over arm "plain", after training
-  bool trial = true;             ///< novices train in two arms: pre, four of training, post, retention
+  double expert_skill = 1.5;  ///< over that of novices, in standard deviations of persons
+  double trained_gain = 1.0;  ///< of arm "guided" over arm "plain", after training
+  bool trial =
+      true;  ///< phases: pre, six of training (experts: one), for novices in two arms post, retention
   double missing_ratings = 0.0;  ///< share
 };
 
@@ -37,7 +38,8 @@ class StudySimulator {
 
   void add_expert(const std::string& code) {
     const double skill = what_.expert_skill + normal();
-    for (int attempt = 1; attempt <= 2; ++attempt) add_session(code, "expert", "", "", attempt, skill);
+    for (int attempt = 1; attempt <= 2; ++attempt)
+      add_session(code, "expert", "", !what_.trial ? "" : attempt == 1 ? "pre" : "training", attempt, skill);
   }
 
   void add_novice(const std::string& code, int number) {
@@ -48,11 +50,15 @@ class StudySimulator {
       return;
     }
     const bool guided = number % 2 == 0;
-    const char* const phases[] = {"pre", "training", "training", "training", "training", "post", "retention"};
-    for (int i = 0; i < 7; ++i) {
-      if (i == 6 && number == 1) continue;  // did not come again
-      const double learned = (guided ? what_.trained_gain : 0.0) * std::min(1.0, i / 5.0);
-      add_session(code, "novice", guided ? "guided" : "plain", phases[i], i + 1, skill + learned);
+    constexpr int training = 6;
+    for (int i = 0; i < training + 3; ++i) {
+      if (i == training + 2 && number == 1) continue;  // did not come again
+      const char* const phase = i == 0              ? "pre"
+                                : i <= training     ? "training"
+                                : i == training + 1 ? "post"
+                                                    : "retention";
+      const double learned = (guided ? what_.trained_gain : 0.0) * std::min(1.0, i / (training + 1.0));
+      add_session(code, "novice", guided ? "guided" : "plain", phase, i + 1, skill + learned);
     }
   }
 
@@ -64,6 +70,7 @@ class StudySimulator {
     const double practice = attempt > 0 ? 90.0 * std::exp(-0.6 * (attempt - 1)) : 0.0;
     session.measures["duration_s"] = 150.0 - 15.0 * today + practice + 3.0 * normal();
     session.measures["slips"] = std::max(0.0, std::round(3.0 - today + normal()));
+    session.measures["setting_mm"] = 1.87;
     session.measures["noise_n"] = 20.0 + 5.0 * normal();
     if (std::uniform_real_distribution<double>()(random_) < 0.8)
       session.measures["offset, mm"] = std::abs(2.0 - 0.4 * today + 0.5 * normal());

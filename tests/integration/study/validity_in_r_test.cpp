@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -125,6 +126,37 @@ TEST(ValidityInR, GroupsThatAreTooSmallHaveNoNumbersInEither) {
       {.seed = ream::test::seed(84), .experts = 2, .novices = 4, .raters = 1, .missing_ratings = 0.3}));
   expect_same(
       ream::test::simulated_study({.seed = ream::test::seed(85), .experts = 3, .novices = 3, .raters = 2}));
+}
+
+TEST(ValidityInR, PhasesWithoutATestBeforeTakeTheFirstSessions) {
+  REAM_SKIP_WITHOUT_R();
+  ValidityInput input =
+      ream::test::simulated_study({.seed = ream::test::seed(87), .experts = 7, .novices = 12});
+  for (RatedSession& session : input.sessions)
+    if (session.phase == "pre") session.phase = "training";
+  std::reverse(input.sessions.begin(), input.sessions.end());
+  expect_same(input);
+}
+
+TEST(ValidityInR, WhatHasNoNumberHasNoneInEither) {
+  REAM_SKIP_WITHOUT_R();
+  ValidityInput input;
+  input.items = {{"low", ItemKind::scale},     {"same", ItemKind::scale}, {"crossed", ItemKind::scale},
+                 {"unrated", ItemKind::scale}, {"done", ItemKind::check}, {"often", ItemKind::check}};
+  const double low[3][2] = {{2, 3}, {3, 2}, {3, 4}}, crossed[3][2] = {{1, 3}, {3, 1}, {2, 2}};
+  for (size_t i = 0; i < 3; ++i) {
+    const std::string code = "s" + std::to_string(i);
+    input.sessions.push_back({code, "P" + code, "novice", "", "", {{"m", 1.87}}, 1});
+    for (size_t j = 0; j < 2; ++j) {
+      const std::string rater = "R" + std::to_string(j);
+      input.ratings.push_back({rater, code, "low", low[i][j]});
+      input.ratings.push_back({rater, code, "same", 3.0});
+      input.ratings.push_back({rater, code, "crossed", crossed[i][j]});
+      input.ratings.push_back({rater, code, "done", 1.0});
+      input.ratings.push_back({rater, code, "often", i > j ? 1.0 : 0.0});
+    }
+  }
+  expect_same(input);
 }
 
 TEST(ValidityInR, ManySeeds) {

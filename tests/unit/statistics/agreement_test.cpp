@@ -44,6 +44,28 @@ TEST(IntraclassCorrelation, SubjectsWithAMissingRatingAreDroppedAndCounted) {
   EXPECT_EQ(icc->single, whole->single);
 }
 
+TEST(IntraclassCorrelation, AnIntervalThatReachesTheLeastValueHasNoneOfTheMean) {
+  // Mean squares 2/3, 1/6 and 2/3: both ICCs are 0, with two degrees of freedom for the interval's F.
+  // The 97.5 % of F(2, 2) is 39, so that the bounds are -76 / 41, under the least value -1, and 76 / 79.
+  const auto icc = intraclass_correlation({{2, 3}, {3, 2}, {3, 4}});
+  ASSERT_TRUE(icc && icc->single_interval);
+  EXPECT_NEAR(icc->single, 0.0, 1e-12);
+  EXPECT_NEAR(icc->average, 0.0, 1e-12);
+  EXPECT_EQ(icc->single_interval->low, -1.0);
+  EXPECT_NEAR(icc->single_interval->high, 76.0 / 79.0, 1e-9);
+  EXPECT_FALSE(icc->average_interval);
+  EXPECT_NE(icc.note.find("has no interval"), std::string::npos) << icc.note;
+}
+
+TEST(IntraclassCorrelation, RatingsThatDifferAreNotSaidToBeEqual) {
+  const auto crossed = intraclass_correlation({{1, 2}, {2, 1}, {1.5, 1.5}});
+  EXPECT_FALSE(crossed);
+  EXPECT_EQ(crossed.note.find("do not differ"), std::string::npos) << crossed.note;
+  EXPECT_NE(crossed.note.find("less than chance"), std::string::npos) << crossed.note;
+  const std::vector<RatingRow> equal(7, RatingRow(3, 1.87));
+  EXPECT_NE(intraclass_correlation(equal).note.find("do not differ"), std::string::npos);
+}
+
 TEST(IntraclassCorrelation, WhatCannotBeSaidIsAnsweredInWords) {
   EXPECT_EQ(intraclass_correlation({}).note, "agreement needs two raters or more");
   EXPECT_EQ(intraclass_correlation({{1}, {2}}).note, "agreement needs two raters or more");
@@ -187,6 +209,15 @@ TEST(Kappa, TheIntervalOfManyRatersHoldsTheTruth) {
     held += interval.low <= 0.49 && 0.49 <= interval.high ? 1 : 0;
   }
   EXPECT_NEAR(held / static_cast<double>(trials), 0.95, 0.025);
+}
+
+TEST(Kappa, ItsIntervalEndsAtOneAndMinusOne) {
+  const auto high = cohens_kappa({{9, 1}, {0, 2}}), low = cohens_kappa({{0, 6}, {6, 1}});
+  ASSERT_TRUE(high->interval && low->interval);
+  EXPECT_EQ(high->interval->high, 1.0);
+  EXPECT_GT(high->kappa + 1.96 * *high->standard_error, 1.0);
+  EXPECT_EQ(low->interval->low, -1.0);
+  EXPECT_LT(low->kappa - 1.96 * *low->standard_error, -1.0);
 }
 
 TEST(Kappa, WhatCannotBeSaidIsAnsweredInWords) {

@@ -198,6 +198,21 @@ TEST(Correlations, WhatCannotBeSaidIsAnsweredInWords) {
   test::expect_error(ErrorKind::invalid_input, "as many", [] { (void)pearson(Values{1, 2}, Values{1}); });
 }
 
+TEST(MeanTests, WhatDiffersByRoundingIsEqual) {
+  const Values three(3, 1.87), fourteen(14, 1.87);
+  EXPECT_NE(welch_test(three, fourteen).note.find("equal"), std::string::npos);
+  // All gain 0.1, but for rounding.
+  const ArmValues gained{{2.0, 1.0, 0.3, 1.87}, {2.1, 1.1, 0.4, 1.97}};
+  ASSERT_NE(2.1 - 2.0, 0.4 - 0.3);
+  EXPECT_NE(paired_test(gained.before, gained.after).note.find("all changes are equal"), std::string::npos);
+  EXPECT_NE(difference_in_change(gained, gained).note.find("equal"), std::string::npos);
+  // A third to 12 digits, and whole numbers.
+  EXPECT_FALSE(paired_test(Values{0.333333333333, 2.0}, Values{1.33333333333, 3.0}));
+  EXPECT_TRUE(paired_test(Values{2.0, 1.0}, Values{2.1, 1.100001}));
+  const ArmValues still{three, {1.0, 2.0, 4.0}}, others{fourteen, Values(14, 3.0)};
+  EXPECT_NE(covariance_adjusted(still, others).note.find("explain nothing"), std::string::npos);
+}
+
 TEST(MeanTests, WhatCannotBeSaidIsAnsweredInWords) {
   EXPECT_NE(welch_test(Values{1}, Values{1, 2}).note.find("two values"), std::string::npos);
   EXPECT_NE(welch_test(Values{1, 1}, Values{2, 2}).note.find("equal"), std::string::npos);

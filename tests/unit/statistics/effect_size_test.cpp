@@ -68,6 +68,8 @@ TEST(EffectSize, WhatCannotBeSaidIsAnsweredInWords) {
   EXPECT_NE(standardized_difference(Values{1}, Values{1, 2}).note.find("two values or more"),
             std::string::npos);
   EXPECT_NE(standardized_difference(Values{1, 1}, Values{2, 2}).note.find("no unit"), std::string::npos);
+  EXPECT_NE(standardized_difference(Values(3, 1.87), Values(14, 1.87)).note.find("no unit"),
+            std::string::npos);
   const auto large = standardized_difference(Values{0, 0.001, 0.002}, Values{10, 10.001, 10.002});
   EXPECT_TRUE(large && !large->d_interval);
   EXPECT_NE(large.note.find("too large"), std::string::npos);

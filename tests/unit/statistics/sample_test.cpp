@@ -19,6 +19,19 @@ TEST(Sample, MeanAndSpread) {
   EXPECT_EQ(mean_of({}), 0.0);
 }
 
+TEST(Sample, EqualValuesDoNotSpread) {
+  for (size_t n = 2; n <= 40; ++n) {
+    const std::vector<double> values(n, 1.87);
+    EXPECT_EQ(spread_of(values).sd, 0.0) << n;
+    EXPECT_EQ(spread_of(values).mean, 1.87) << n;
+    EXPECT_EQ(mean_of(values), 1.87) << n;
+    const auto mean = mean_estimate(values);
+    EXPECT_TRUE(mean && !mean->interval) << n;
+    EXPECT_EQ(mean->mean, 1.87) << n;
+    EXPECT_NE(mean.note.find("all values are equal"), std::string::npos) << mean.note;
+  }
+}
+
 TEST(Sample, MedianAndQuantiles) {
   EXPECT_EQ(median_of(std::array{3.0, 1.0, 2.0}), 2.0);
   EXPECT_EQ(median_of(std::array{4.0, 1.0, 2.0, 3.0}), 2.5);

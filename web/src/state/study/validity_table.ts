@@ -57,18 +57,21 @@ const columns: Record<PartName, readonly Column[]> = {
     [titles.pearson, ranged('pearson')],
     [titles.spearman, plain('spearman')],
     [titles.pearsonP, plain('pearson_p')],
-    [titles.holm, plain('pearson_p_holm')],
+    [titles.pearsonHolm, plain('pearson_p_holm')],
   ],
   changes: [
     [titles.n, count('n')],
     [titles.change, ranged('change')],
     [titles.pairedP, plain('paired_p')],
+    [titles.pairedHolm, plain('paired_p_holm')],
   ],
   arm_differences: [
     [titles.difference, ranged('difference')],
     [titles.p, plain('welch_p')],
+    [titles.holm, plain('welch_p_holm')],
     [titles.ancova, ranged('ancova')],
     [titles.ancovaP, plain('ancova_p')],
+    [titles.ancovaHolm, plain('ancova_p_holm')],
   ],
   benchmarks: [
     [titles.n, count('n')],

@@ -58,6 +58,20 @@ describe('validity table', () => {
     expect(rows[1]?.notes).toBe('Only 2 experts.');
   });
 
+  it('shows p of changes and of differences between arms for all measures, too', () => {
+    const shown = (part: 'changes' | 'arm_differences', values: Record<string, number>) => {
+      const line = { subject: 'guided:post', measure: 'points', values, notes: [] };
+      const { head, rows } = tableOf({ ...nothing, [part]: [line] }, part);
+      expect(new Set(head).size).toBe(head.length);
+      return (title: string) => rows[0]?.cells[head.indexOf(title)];
+    };
+    const change = shown('changes', { paired_p: 0.01, paired_p_holm: 0.04 });
+    expect([change('p (paired)'), change('p (paired, Holm)')]).toEqual(['0.010', '0.040']);
+    const apart = shown('arm_differences', { welch_p: 0.02, welch_p_holm: 0.06, ancova_p: 0.03, ancova_p_holm: 0.09 });
+    expect([apart('p (Welch)'), apart('p (Welch, Holm)')]).toEqual(['0.020', '0.060']);
+    expect([apart('p (ANCOVA)'), apart('p (ANCOVA, Holm)')]).toEqual(['0.030', '0.090']);
+  });
+
   it('has columns for every part', () => {
     expect([...partNames].sort()).toEqual(
       Object.keys(nothing)
