@@ -1,5 +1,9 @@
 #include "api/authorizer.hpp"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 #include "access/secret.hpp"
 #include "api/login_cookie.hpp"
 #include "api/visibility.hpp"
@@ -10,6 +14,16 @@ namespace ream::api {
 namespace {
 
 const std::string one_session = "/api/v1/sessions/{id}";
+
+/// Whether a route of one session says what it measured, so that it tells how the bone was made.
+bool shows_results(const Route& route) {
+  static constexpr std::array parts = {"recording", "session.json", "trace",   "mesh",  "snapshot",
+                                       "exports",   "replay",       "metrics", "score", "deviation"};
+  const std::string_view pattern = route.pattern;
+  return std::any_of(parts.begin(), parts.end(), [&](std::string_view part) {
+    return pattern.size() > one_session.size() && pattern.substr(one_session.size() + 1) == part;
+  });
+}
 
 net::Caller everybody() { return {"", "", "operator", "", ""}; }
 
@@ -75,10 +89,13 @@ void Authorizer::require_sight(const net::Request& request, const Route& route) 
   // Only staff rates; whoever of them stands beside a device may stop it.
   if (access::is_staff(request.caller.role)) {
     if (route.urgency != net::Urgency::halt) require_unrated(request.caller, id);
-    return;
+  } else if (const auto session = sessions_.session_of(id); session && !may_see(request.caller, *session)) {
+    refuse_unseen(id);
   }
-  const auto session = sessions_.session_of(id);
-  if (session && !may_see(request.caller, *session)) refuse_unseen(id);
+  if (shows_results(route) && sessions_.hides_results(request.caller, id))
+    throw net::RequestError(403, "session '" + id +
+                                     "' is of a study of feel; what it measured stays hidden until the study "
+                                     "is closed");
 }
 
 void Authorizer::require_unrated(const net::Caller& caller, const std::string& session) const {

@@ -57,6 +57,7 @@ std::vector<session::EndedSession> attempts_of(const Services& services, const n
     session::EndedSession ended{id,
                                 {{"created_utc", record.request.created_utc},
                                  {"theatre", record.request.theatre},
+                                 {"case", record.request.case_id},
                                  {"device", record.request.device}},
                                 read_json_file(session::metrics_json(folder))};
     if (session::is_attempt(ended)) attempts.push_back(std::move(ended));

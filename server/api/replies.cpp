@@ -92,6 +92,13 @@ net::Response created(const std::string& where, const json& body) {
   return response;
 }
 
+net::Response csv_response(const session::ExportTable& table, const std::string& file) {
+  net::Response response =
+      net::bytes_response(200, "text/csv; charset=utf-8; header=present", net::share(session::csv_of(table)));
+  response.headers.emplace_back("Content-Disposition", "attachment; filename=\"" + file + "\"");
+  return response;
+}
+
 net::Response no_content() { return {204, {}, nullptr, {}}; }
 
 }  // namespace ream::api

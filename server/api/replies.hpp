@@ -4,6 +4,7 @@
 #include "access/users.hpp"
 #include "jobs/job_service.hpp"
 #include "session/folder/session_folder.hpp"
+#include "session/scoring/export_table.hpp"
 #include "session/service/replay_service.hpp"
 #include "study/study.hpp"
 
@@ -20,6 +21,8 @@ nlohmann::json user_json(const access::User& user);
 net::Response created(const std::string& where, const nlohmann::json& body);
 /// 202 with the job and where to ask about it.
 net::Response accepted(const jobs::JobRecord& job);
+/// A table to be saved under the file's name.
+net::Response csv_response(const session::ExportTable& table, const std::string& file);
 /// 204.
 net::Response no_content();
 

@@ -33,5 +33,7 @@ std::vector<Route> rubric_routes();
 std::vector<Route> benchmark_routes();
 std::vector<Route> study_routes();
 std::vector<Route> rating_routes();
+std::vector<Route> feel_routes();
+std::vector<Route> sample_size_routes();
 
 }  // namespace ream::api

@@ -69,6 +69,7 @@ class Server {
   const std::shared_ptr<const study::StudyDependencies> study_dependencies_;
   study::StudyService studies_;
   study::RatingService ratings_;
+  study::FeelService feel_;
   session::ReplayService replays_;
   const ServedSessions served_;
   Retention retention_;

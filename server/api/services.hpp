@@ -12,6 +12,7 @@
 #include "jobs/low_priority_executor.hpp"
 #include "session/service/replay_service.hpp"
 #include "session/service/session_service.hpp"
+#include "study/feel_service.hpp"
 #include "study/rating_service.hpp"
 #include "study/study_service.hpp"
 #include "workup/case_service.hpp"
@@ -27,6 +28,7 @@ struct Services {
   session::SessionEngine& engine;
   study::StudyService& studies;
   study::RatingService& ratings;
+  study::FeelService& feel;
   jobs::JobService& jobs;
   jobs::LowPriorityExecutor& executor;
   workup::CaseService& cases;

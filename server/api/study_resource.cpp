@@ -44,6 +44,7 @@ json summary_json(const StudyView& view) {
           {"device", or_null(study.settings.device)},
           {"device_profile", or_null(study.settings.device_profile)},
           {"design", study.settings.design ? to_json(*study.settings.design) : json(nullptr)},
+          {"feel", study.settings.feel ? to_json(*study.settings.feel) : json(nullptr)},
           {"allocation_seed", study.open ? json(nullptr) : or_null(study.allocation_seed)},
           {"rates", view.rates},
           {"join_code", view.to_staff ? json(study.join_code) : json(nullptr)},
@@ -82,10 +83,13 @@ study::StudyDraft study_draft_from(const json& body) {
       std::nullopt};
   if (body.contains("design") && !body["design"].is_null())
     draft.settings.design = study::design_from(body["design"]);
-  if (!body.contains("rating_form"))
-    draft.settings.rating_form = study::default_rating_form();
-  else if (!body["rating_form"].is_null())
+  if (body.contains("feel") && !body["feel"].is_null())
+    draft.settings.feel = study::feel_trials_from(body["feel"]);
+  if (!body.contains("rating_form")) {
+    if (!draft.settings.feel) draft.settings.rating_form = study::default_rating_form();
+  } else if (!body["rating_form"].is_null()) {
     draft.settings.rating_form = study::questionnaire_from(body["rating_form"]);
+  }
   if (!body.contains("questionnaire"))
     draft.questionnaire = study::face_validity_questionnaire();
   else if (!body["questionnaire"].is_null())
@@ -163,13 +167,6 @@ net::Response list_persons(const Services& services, const net::Request& request
   return net::json_response(200, {{"persons", std::move(list)}});
 }
 
-net::Response csv_reply(const session::ExportTable& table, const std::string& file) {
-  net::Response response =
-      net::bytes_response(200, "text/csv; charset=utf-8; header=present", net::share(session::csv_of(table)));
-  response.headers.emplace_back("Content-Disposition", "attachment; filename=\"" + file + "\"");
-  return response;
-}
-
 net::Response export_study(const Services& services, const net::Request& request) {
   const std::string format = query_text(request, "format", "json");
   const std::string table = query_text(request, "table", "sessions");
@@ -185,7 +182,7 @@ net::Response export_study(const Services& services, const net::Request& request
                                        : table == "groups"  ? all.groups
                                        : table == "ratings" ? all.ratings
                                                             : all.sessions;
-  return csv_reply(chosen, id_of(request) + "-" + table + ".csv");
+  return csv_response(chosen, id_of(request) + "-" + table + ".csv");
 }
 
 /// Tables have the names under which the script reads them.
@@ -199,11 +196,11 @@ net::Response get_validity(const Services& services, const net::Request& request
   }
   const study::ValidityInput input = services.studies.validity_input(request.caller, id_of(request));
   services.audit(request, "study.validity", id_of(request), form);
-  if (form == "sessions") return csv_reply(validity_sessions_table(input), "sessions.csv");
-  if (form == "ratings") return csv_reply(validity_ratings_table(input), "ratings.csv");
+  if (form == "sessions") return csv_response(validity_sessions_table(input), "sessions.csv");
+  if (form == "ratings") return csv_response(validity_ratings_table(input), "ratings.csv");
   study::ValidityReport report;
   services.executor.run([&] { report = validity_report(input); });
-  if (form == "numbers") return csv_reply(validity_numbers_table(report), "numbers.csv");
+  if (form == "numbers") return csv_response(validity_numbers_table(report), "numbers.csv");
   return net::json_response(200, validity_json(report));
 }
 
@@ -217,13 +214,15 @@ net::Response study_changed(const Services& services, const net::Request& reques
   return study_reply(services, request, study);
 }
 
-/// What the body leaves out of questionnaire, design and form stays as it is.
+/// What the body leaves out of cases, questionnaire, design, feel and form stays as it is.
 net::Response change_study(const Services& services, const net::Request& request) {
   const json& body = body_of(request);
   study::StudyDraft draft = study_draft_from(body);
   const study::Study before = services.studies.get(request.caller, id_of(request));
   if (!body.contains("questionnaire")) draft.questionnaire = before.questionnaire;
   if (!body.contains("design")) draft.settings.design = before.settings.design;
+  if (!body.contains("cases")) draft.settings.cases = before.settings.cases;
+  if (!body.contains("feel")) draft.settings.feel = before.settings.feel;
   if (!body.contains("rating_form")) draft.settings.rating_form = before.settings.rating_form;
   const study::Study study = services.studies.change(id_of(request), draft);
   return study_changed(services, request, study, "study.change");

@@ -20,6 +20,11 @@ bool ServedSessions::is_rated_by(const net::Caller& caller, const std::string& i
   return session && ratings_.hides(caller, *session);
 }
 
+bool ServedSessions::hides_results(const net::Caller& caller, const std::string& id) const {
+  const auto session = session_of(id);
+  return session && feel_.hides(caller, *session);
+}
+
 bool may_see(const net::Caller& caller, const session::SessionRequest& session) {
   switch (access::role_bit(caller.role)) {
     case access::operators:

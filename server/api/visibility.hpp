@@ -5,6 +5,7 @@
 #include "net/message.hpp"
 #include "session/service/replay_service.hpp"
 #include "session/service/session_service.hpp"
+#include "study/feel_service.hpp"
 #include "study/rating_service.hpp"
 
 namespace ream::api {
@@ -18,21 +19,25 @@ class SessionFinder {
   /// Whether the caller rates the session with that id, and is to see no more of it than its replay. A replay
   /// has an id of its own and is not hidden.
   virtual bool is_rated_by(const net::Caller& caller, const std::string& id) const = 0;
+  /// Whether the caller may reach a session, but nothing that it has measured.
+  virtual bool hides_results(const net::Caller& caller, const std::string& id) const = 0;
 };
 
 /// Those of a server, which outlive it.
 class ServedSessions final : public SessionFinder {
  public:
   ServedSessions(const session::SessionService& sessions, const session::ReplayService& replays,
-                 const study::RatingService& ratings)
-      : sessions_(sessions), replays_(replays), ratings_(ratings) {}
+                 const study::RatingService& ratings, const study::FeelService& feel)
+      : sessions_(sessions), replays_(replays), ratings_(ratings), feel_(feel) {}
   std::optional<session::SessionRequest> session_of(const std::string& id) const override;
   bool is_rated_by(const net::Caller& caller, const std::string& id) const override;
+  bool hides_results(const net::Caller& caller, const std::string& id) const override;
 
  private:
   const session::SessionService& sessions_;
   const session::ReplayService& replays_;
   const study::RatingService& ratings_;
+  const study::FeelService& feel_;
 };
 
 /// Whether a caller may know of a session: operators and instructors of all, trainees of their own, viewers

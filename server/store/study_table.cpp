@@ -78,7 +78,7 @@ void StudyTable::replace(const StudyRow& study) {
 void StudyTable::remove(const std::string& id) {
   database_.run([&](Sql& sql) {
     require_known(study_exists(sql, id), "no study '" + id + "'");
-    for (const char* table : {"study_ratings", "study_raters", "study_allocations"})
+    for (const char* table : {"study_ratings", "study_raters", "study_allocations", "study_feel_answers"})
       sql << "DELETE FROM " + std::string(table) + " WHERE study = :id", use(id);
     sql << "DELETE FROM studies WHERE id = :id", use(id);
   });
@@ -134,6 +134,7 @@ void StudyTable::remove_participant(const std::string& study, const std::string&
   database_.run([&](Sql& sql) {
     require_known(participant_exists(sql, study, code), unknown_participant(study, code));
     sql << "DELETE FROM study_persons WHERE code = :code", use(code);
+    sql << "DELETE FROM study_feel_answers WHERE participant = :code", use(code);
     sql << "DELETE FROM study_participants WHERE code = :code", use(code);
   });
 }

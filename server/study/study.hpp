@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "study/feel_trials.hpp"
 #include "study/questionnaire.hpp"
 #include "study/study_design.hpp"
 
@@ -12,12 +13,14 @@ namespace ream::study {
 
 /// What every session of a study is, so that they can be compared.
 struct StudySettings {
-  std::vector<std::string> cases;                 ///< one or more ids; a session is on one of them
+  std::vector<std::string> cases;                 ///< ids; a session is on one of them
   std::string script;                             ///< empty: the usual one of the device
   std::string device;                             ///< empty: the server's usual one
   std::string device_profile;                     ///< empty: the device's usual one
   std::optional<StudyDesign> design = {};         ///< none: sessions in any number and order
   std::optional<Questionnaire> rating_form = {};  ///< what raters fill in about a session; none: nobody rates
+  /// A study of feel: it has neither cases nor design nor raters.
+  std::optional<FeelTrials> feel = {};
 };
 
 /// Sessions of several people, compared by what they did and said; nobody who compares knows who they are.

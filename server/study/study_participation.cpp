@@ -23,6 +23,13 @@ Participant only_code(const Participant& participant) {
   return {participant.code, "", 0, std::nullopt, participant.has_account, ""};
 }
 
+void place_on_case(const Study& study, session::SessionRequest& wanted) {
+  const auto& cases = study.settings.cases;
+  if (wanted.case_id.empty()) wanted.case_id = cases.front();
+  if (std::find(cases.begin(), cases.end(), wanted.case_id) == cases.end())
+    throw Error(ErrorKind::conflict, "case '" + wanted.case_id + "' is none of study '" + study.id + "'");
+}
+
 }  // namespace
 
 std::vector<Participant> StudyService::participants(const net::Caller& caller, const std::string& id) const {
@@ -68,6 +75,12 @@ std::vector<store::PersonRow> StudyService::persons(const net::Caller& caller, c
   if (known(id).blinded() && !access::is_operator(caller.role))
     throw net::RequestError(403, "who takes part in study '" + id + "' is hidden until it is unblinded");
   return table_.persons(id);
+}
+
+std::vector<Participant> StudyService::everybody_for_export(const net::Caller& caller,
+                                                            const std::string& id) const {
+  require_export(caller, known(id));
+  return everybody(id);
 }
 
 Participant StudyService::answer(const net::Caller& caller, const std::string& id, const std::string& code,
@@ -152,10 +165,10 @@ void StudyService::admit(const net::Caller& caller, session::SessionRequest& wan
   wanted.script = study.settings.script;
   wanted.device_profile = study.settings.device_profile;
   if (study.settings.design) place_in_design(study, wanted);
-  if (wanted.case_id.empty()) wanted.case_id = study.settings.cases.front();
-  const auto& cases = study.settings.cases;
-  if (std::find(cases.begin(), cases.end(), wanted.case_id) == cases.end())
-    throw Error(ErrorKind::conflict, "case '" + wanted.case_id + "' is none of study '" + id + "'");
+  if (study.settings.feel)
+    place_in_feel(study, wanted);
+  else
+    place_on_case(study, wanted);
   wanted.device = study.settings.device;
   const auto person = table_.person(id, wanted.participant);
   wanted.trainee_id = person ? person->user_id : "";
@@ -178,9 +191,7 @@ std::optional<NextSession> StudyService::next(const Study& study, const std::str
 void StudyService::place_in_design(const Study& study, session::SessionRequest& wanted) const {
   const StudyDesign& design = *study.settings.design;
   const std::string& code = wanted.participant;
-  if (dependencies_->has_live_session(study.id, code))
-    throw Error(ErrorKind::conflict,
-                "participant '" + code + "' has a session that has not ended; stop it first");
+  require_no_live_session(study, code);
   const auto next = this->next(study, code);
   if (!next)
     throw Error(ErrorKind::conflict,
@@ -205,6 +216,32 @@ void StudyService::place_in_design(const Study& study, session::SessionRequest& 
   if (!arm.device_profile.empty()) wanted.device_profile = arm.device_profile;
 }
 
+std::optional<FeelTrial> StudyService::next_feel_trial(const Study& study, const std::string& code) const {
+  if (!study.settings.feel) return std::nullopt;
+  const size_t answered = store::answers_of(feel_answers_.answers(study.id), code).size();
+  const std::vector<FeelTrial> trials = trials_for(*study.settings.feel, study.allocation_seed, code);
+  return answered < trials.size() ? std::optional(trials[answered]) : std::nullopt;
+}
+
+void StudyService::place_in_feel(const Study& study, session::SessionRequest& wanted) const {
+  require_no_live_session(study, wanted.participant);
+  const auto trial = next_feel_trial(study, wanted.participant);
+  if (!trial)
+    throw Error(ErrorKind::conflict, "participant '" + wanted.participant +
+                                         "' has answered every trial of study '" + study.id + "'");
+  if (!wanted.case_id.empty() && wanted.case_id != trial->case_id())
+    throw Error(ErrorKind::conflict, "the plates of a study of feel are chosen by the server; name no case");
+  wanted.case_id = trial->case_id();
+  wanted.phase = feel_phase;
+  wanted.theatre = true;
+}
+
+void StudyService::require_no_live_session(const Study& study, const std::string& code) const {
+  if (dependencies_->has_live_session(study.id, code))
+    throw Error(ErrorKind::conflict,
+                "participant '" + code + "' has a session that has not ended; stop it first");
+}
+
 std::vector<std::string> StudyService::rated_by(const net::Caller& caller) const {
   std::vector<std::string> open;
   for (const auto& [study, label] : ratings_.labels_of(caller.user_id))
@@ -214,8 +251,10 @@ std::vector<std::string> StudyService::rated_by(const net::Caller& caller) const
 
 void StudyService::require_repeatable(const session::SessionRequest& session) const {
   const auto phase = phase_from(session.phase);
-  if (session.study.empty() || !phase) return;
   const std::string name = "session '" + session.id + "'";
+  if (session.phase == feel_phase)
+    throw Error(ErrorKind::conflict, name + " is of a study of feel; begin the next one from the study");
+  if (session.study.empty() || !phase) return;
   if (is_test(*phase)) throw Error(ErrorKind::conflict, name + " is a test of its study, which is done once");
   const auto row = table_.find(session.study);
   if (!row || row->state != "open") throw Error(ErrorKind::conflict, "the study of " + name + " is closed");

@@ -12,6 +12,7 @@ store::StudyRow row_of(const Study& study) {
       {"device", study.settings.device},
       {"device_profile", study.settings.device_profile},
       {"design", study.settings.design ? to_json(*study.settings.design) : json(nullptr)},
+      {"feel", study.settings.feel ? to_json(*study.settings.feel) : json(nullptr)},
       {"rating_form", study.settings.rating_form ? to_json(*study.settings.rating_form) : json(nullptr)},
       {"allocation_seed", study.allocation_seed},
       {"rating_key", study.rating_key}};
@@ -43,6 +44,8 @@ Study study_of(const store::StudyRow& row) {
   study.rating_key = settings.value("rating_key", "");
   if (const json design = settings.value("design", json()); !design.is_null())
     study.settings.design = design_from(design);
+  if (const json feel = settings.value("feel", json()); !feel.is_null())
+    study.settings.feel = feel_trials_from(feel);
   if (const json form = settings.value("rating_form", json()); !form.is_null())
     study.settings.rating_form = questionnaire_from(form);
   if (!row.questionnaire.empty()) study.questionnaire = questionnaire_from(parse_json(row.questionnaire));

@@ -23,7 +23,7 @@ Error unknown_study(const std::string& id) {
 }  // namespace
 
 StudyService::StudyService(store::Database& database, std::shared_ptr<const StudyDependencies> dependencies)
-    : table_(database), ratings_(database), dependencies_(std::move(dependencies)) {}
+    : table_(database), ratings_(database), feel_answers_(database), dependencies_(std::move(dependencies)) {}
 
 Study StudyService::known(const std::string& id) const {
   const auto row = table_.find(id);
@@ -39,6 +39,11 @@ Study StudyService::open_one(const std::string& id) const {
 }
 
 void StudyService::require_settings(const StudySettings& settings) const {
+  if (settings.feel && (!settings.cases.empty() || settings.design || settings.rating_form))
+    throw Error(ErrorKind::invalid_input,
+                "a study of feel has plates of its own; leave out cases, design and rating_form");
+  if (!settings.feel && settings.cases.empty())
+    throw Error(ErrorKind::invalid_input, "cases: a study needs one or more");
   for (const std::string& case_id : settings.cases)
     if (!dependencies_->has_case(case_id))
       throw Error(ErrorKind::not_found, "no case '" + case_id + "'; GET /api/v1/cases lists them");

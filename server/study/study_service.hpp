@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "net/message.hpp"
+#include "store/feel_table.hpp"
 #include "store/rating_table.hpp"
 #include "store/study_table.hpp"
 #include "study/blinding.hpp"
@@ -102,6 +103,8 @@ class StudyService {
   StudyExport export_all(const net::Caller& caller, const std::string& id) const;
   /// What of the study shows whether scores mean anything; who may have it as export_all().
   ValidityInput validity_input(const net::Caller& caller, const std::string& id) const;
+  /// All participants with everything; who may have it as export_all().
+  std::vector<Participant> everybody_for_export(const net::Caller& caller, const std::string& id) const;
   /// What the columns of the export mean.
   nlohmann::json codebook(const std::string& id) const;
 
@@ -110,6 +113,9 @@ class StudyService {
   void admit(const net::Caller& caller, session::SessionRequest& wanted) const;
   /// What the participant does next by the study's design; none when all is done, or without a design.
   std::optional<NextSession> next(const Study& study, const std::string& code) const;
+  /// The trial of a study of feel that the participant does next; none when all are answered, or in a study
+  /// of another kind.
+  std::optional<FeelTrial> next_feel_trial(const Study& study, const std::string& code) const;
   /// Ids of the open studies whose sessions the caller rates.
   std::vector<std::string> rated_by(const net::Caller& caller) const;
   /// Error conflict unless a session of a study may be begun anew from intact bone, or be gone on with: a
@@ -132,9 +138,13 @@ class StudyService {
   void require_no_rater(const net::Caller& caller, const std::string& id) const;
   /// Makes a session of a study with a design what the participant does next.
   void place_in_design(const Study& study, session::SessionRequest& wanted) const;
+  /// Makes a session of a study of feel that on the plates of the participant's next trial.
+  void place_in_feel(const Study& study, session::SessionRequest& wanted) const;
+  void require_no_live_session(const Study& study, const std::string& code) const;
 
   mutable store::StudyTable table_;
   store::RatingTable ratings_;
+  store::FeelTable feel_answers_;
   const std::shared_ptr<const StudyDependencies> dependencies_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "case/two_plates.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -54,6 +55,7 @@ std::string trainee_of(const nlohmann::json& session) {
 
 bool is_attempt(const EndedSession& session) {
   return session.session.value("device", "script") != "script" &&
+         !case_::is_two_plates(session.session.value("case", "")) &&
          session.value("removed_volume_mm3") != std::optional(0.0);
 }
 

@@ -1,5 +1,6 @@
 #include "session/simulation/find_case.hpp"
 
+#include "case/two_plates.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "ct/phantom/phantom_case.hpp"
@@ -14,6 +15,12 @@ void require_computable(const record::Recording& recording) {
     throw Error(ErrorKind::invalid_input,
                 recording.log().path().string() +
                     " is of an older revision that does not say enough to go through it or compute it again");
+}
+
+/// Those that come with the program are made where they are first asked for.
+void make_built_in(const std::string& name, const fs::path& data) {
+  if (name == "demo") ct::load_or_make_demo_case(data);
+  if (case_::is_two_plates(name)) case_::load_or_make_two_plates(data_folder(data), name);
 }
 
 }  // namespace
@@ -42,7 +49,7 @@ case_::Case CaseCache::load(const fs::path& folder) {
 case_::Case find_case(const std::string& name, const fs::path& data) {
   static CaseCache cache;
   const fs::path folder = case_path(name, data);
-  if (name == "demo" && !fs::exists(folder / "case.json")) ct::load_or_make_demo_case(data);
+  if (!fs::exists(folder / "case.json")) make_built_in(name, data);
   return cache.load(folder);
 }
 

@@ -5,6 +5,7 @@
 #include "core/file.hpp"
 #include "store/credential_table.hpp"
 #include "store/dialect.hpp"
+#include "store/feel_table.hpp"
 #include "store/idempotency_table.hpp"
 #include "store/migrations.hpp"
 #include "store/rating_table.hpp"
@@ -77,6 +78,7 @@ TYPED_TEST(GoldenDatabasesTest, AreOpenedWithAllTheirRows) {
     EXPECT_EQ(StudyTable(*today).codes_of("u1").at("st1"), "P01");
     EXPECT_EQ(StudyTable(*today).participant("st1", "P01")->arm, step < 60 ? "" : "control");
     EXPECT_EQ(RatingTable(*today).ratings("st1").size(), step < 60 ? 0u : 1u);
+    EXPECT_EQ(FeelTable(*today).answers("st1").size(), step < 70 ? 0u : 1u);
   }
 }
 

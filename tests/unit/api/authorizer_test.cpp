@@ -67,6 +67,9 @@ class GateTest : public test::TestDatabase<test::OnSqlite>, protected SessionFin
     }
   }
 
+  bool hides_results(const net::Caller& caller, const std::string& id) const override {
+    return id == "felt2345" && caller.role != "operator";
+  }
   bool is_rated_by(const net::Caller& caller, const std::string& id) const override {
     return rated.contains({caller.user_id, id});
   }
@@ -138,6 +141,26 @@ TEST_F(GateTest, RolesPassAsTheTableSays) {
   EXPECT_EQ(refusal(with_token("GET", tom), users), 403);
   EXPECT_EQ(refusal(with_token("GET", tom), sessions), 0);
   EXPECT_EQ(refusal(request("GET"), sessions), 401);
+}
+
+TEST_F(GateTest, WhatAHiddenSessionMeasuredIsForOperatorsOnly) {
+  add_users();
+  const std::string one = sessions + "/{id}";
+  const auto asked = [&](const std::string& method, const std::string& user) {
+    net::Request made = with_token(method, user);
+    made.parameters["id"] = "felt2345";
+    return made;
+  };
+  for (const char* part :
+       {"/metrics", "/score", "/trace", "/recording", "/session.json", "/mesh", "/snapshot", "/deviation"}) {
+    EXPECT_EQ(refusal(asked("GET", tom), one + part), 403) << part;
+    EXPECT_EQ(refusal(asked("GET", anna), one + part), 0) << part;
+  }
+  for (const char* part : {"/replay", "/exports"})
+    EXPECT_EQ(refusal(asked("POST", tom), one + part), 403) << part;
+  EXPECT_EQ(refusal(asked("GET", tom), one), 0);
+  for (const char* part : {"/start", "/pause", "/stop"})
+    EXPECT_EQ(refusal(asked("POST", tom), one + part), 0) << part;
 }
 
 TEST_F(GateTest, WhoIsNotKnownIsToldHowToBe) {

@@ -52,6 +52,7 @@ class StudyContractTest : public AccessTest {
     expect("GET", studies, studies, 401);
     expect("GET", studies, studies, 403, viewer());
     refused_bodies("POST", studies, studies, ines, wanted, R"({"name": "First year", "cases": []})");
+    expect("POST", studies, studies, 422, ines, R"({"name": "First year"})");
     expect("POST", studies, studies, 403, tom, wanted);
     expect("POST", studies, studies, 404, ines, R"({"name": "First year", "cases": ["nowhere"]})");
     expect("POST", studies, studies, 201, ines, wanted);
@@ -68,7 +69,7 @@ class StudyContractTest : public AccessTest {
   }
 
   void changing() {
-    refused_bodies("PUT", one_study, at, ines, wanted, R"({"name": "First year"})");
+    refused_bodies("PUT", one_study, at, ines, wanted, R"({"name": ""})");
     expect("PUT", one_study, at, 403, tom, wanted);
     expect("PUT", one_study, studies + "/nothing", 404, ines, wanted);
     expect("PUT", one_study, at, 404, ines, R"({"name": "First year", "cases": ["nowhere"]})");
@@ -206,6 +207,73 @@ class StudyContractTest : public AccessTest {
     expect("GET", pattern, here + "?form=xls", 422, anna);
   }
 
+  void feeling() {
+    for (const char* unusable : {R"({"name": "F", "feel": {}, "cases": ["planned"]})",
+                                 R"({"name": "F", "feel": {"comparisons": ["cartilage", "cartilage"]}})",
+                                 R"({"name": "F", "feel": {"trials_per_comparison": 3}})"})
+      expect("POST", studies, studies, 422, ines, unusable);
+    const json study =
+        made(ines, studies, R"({"name": "Feel", "device": "browser", "feel": {"trials_per_comparison": 2}})");
+    EXPECT_EQ(study.at("feel").at("comparisons").size(), 4u);
+    EXPECT_TRUE(study.at("rating_form").is_null());
+    const std::string feel = study.at("id"), place = studies + "/" + feel;
+    const std::string own = made(tom, studies + "/join",
+                                 json{{"join_code", study.at("join_code")}, {"experience", "expert"}}.dump())
+                                .at("code");
+    const std::string pattern = participant + "/feel-trial",
+                      here = place + "/participants/" + own + "/feel-trial";
+    expect("GET", pattern, here, 200, tom);
+    expect("GET", pattern, here, 200, ines);
+    expect("GET", pattern, here, 401);
+    expect("GET", pattern, here, 403, viewer());
+    expect("GET", pattern, here, 404, ben);
+    expect("GET", pattern, at + "/participants/" + code + "/feel-trial", 409, tom);
+    const std::string good = R"({"number": 1, "chosen": "upper"})";
+    refused_bodies("PUT", pattern, here, tom, good, R"({"number": 1, "chosen": "left"})");
+    expect("PUT", pattern, here, 403, ines, good);
+    expect("PUT", pattern, here, 404, ben, good);
+    expect("PUT", pattern, here, 409, tom, good);
+    const json session = made(tom, all, json{{"study", feel}}.dump());
+    EXPECT_EQ(session.at("phase"), "feel");
+    EXPECT_TRUE(session.at("theatre").get<bool>());
+    const std::string path = all + "/" + session.at("id").get<std::string>();
+    EXPECT_EQ(request("POST", path + "/start", tom).status, 200);
+    expect("PUT", pattern, here, 409, tom, good);
+    EXPECT_EQ(request("POST", path + "/stop", tom).status, 200);
+    for (const Sent& who : {tom, ines}) {
+      for (const char* part : {"/metrics", "/score", "/trace", "/recording", "/session.json"})
+        EXPECT_EQ(request("GET", path + part, who).status, 403) << part;
+      EXPECT_EQ(request("POST", path + "/replay", who).status, 403);
+      EXPECT_EQ(request("GET", path, who).status, 200);
+    }
+    EXPECT_EQ(request("POST", path + "/reset", tom).status, 409) << "the next one begins from the study";
+    expect("PUT", pattern, here, 200, tom, good);
+    expect("PUT", pattern, here, 409, tom, good);
+    const std::string report = one_study + "/feel", there = place + "/feel";
+    expect("GET", report, there, 200, anna);
+    expect("GET", report, there + "?form=answers", 200, anna);
+    expect("GET", report, there, 401);
+    expect("GET", report, there, 403, tom);
+    expect("GET", report, studies + "/nothing/feel", 404, anna);
+    expect("GET", report, there, 409, ines);
+    expect("GET", report, at + "/feel", 409, anna);
+    EXPECT_EQ(request("POST", place + "/close", ines).status, 200);
+    EXPECT_EQ(request("GET", there, ines).status, 200);
+    EXPECT_EQ(request("GET", path + "/metrics", tom).status, 200);
+  }
+
+  void planning() {
+    const std::string size = "/api/v1/sample-size", means = size + "?question=means&effect=0.8";
+    expect("GET", size, means, 200, ines);
+    expect("GET", size, size + "?question=shares&first=0.5&second=0.8", 200, ines);
+    expect("GET", size, size + "?question=agreement&least=0.5&expected=0.8&raters=2", 200, ines);
+    expect("GET", size, size + "?question=precision&width=0.2&expected=0.8&raters=2", 200, ines);
+    expect("GET", size, means, 401);
+    expect("GET", size, means, 403, tom);
+    expect("GET", size, size + "?question=means", 422, ines);
+    expect("GET", size, size + "?question=agreement&least=0.8&expected=0.5&raters=2", 422, ines);
+  }
+
   void exporting() {
     const std::string pattern = one_study + "/export", here = at + "/export";
     expect("GET", pattern, here, 200, anna);
@@ -279,11 +347,13 @@ class StudyContractTest : public AccessTest {
            {std::pair("{id}", "s1"), {"{code}", "K7-F3M"}, {"{label}", "R1"}, {"{key}", "0123456789abcdef"}})
         if (const size_t place = path.find(name); place != std::string::npos)
           path.replace(place, std::string(name).size(), value);
+      if (path == "/api/v1/sample-size") path += "?question=means&effect=1";
       const bool joins = path.ends_with("/join");
       const std::string body = path == studies || path == studies + "/s1" ? wanted
                                : joins                     ? R"({"join_code": "x", "experience": "novice"})"
                                : path.ends_with("/raters") ? R"({"user_id": "u1"})"
-                               : path.ends_with("/replay") ? ""
+                               : path.ends_with("/feel-trial") ? R"({"number": 1, "chosen": "upper"})"
+                               : path.ends_with("/replay")     ? ""
                                : path.ends_with("/answers") || path.find("rating-queue") != std::string::npos
                                    ? "{}"
                                    : R"({"experience": "novice"})";
@@ -310,6 +380,8 @@ TEST_F(StudyContractTest, EveryDescribedReplyIsGivenAsDescribed) {
   answering();
   rating();
   validity();
+  feeling();
+  planning();
   exporting();
   ending();
   forgetting();
