@@ -15,6 +15,7 @@
 #include "session/folder/recorded_annotations.hpp"
 #include "session/folder/session_folder.hpp"
 #include "session/folder/session_labels.hpp"
+#include "store/feel_table.hpp"
 #include "store/rating_table.hpp"
 #include "store/session_index.hpp"
 #include "store/study_table.hpp"
@@ -160,6 +161,16 @@ json audit_json(const access::AuditLog& audit, const access::User& user) {
   return rows;
 }
 
+json feel_answers_of(store::Database& database, const std::string& study, const std::string& code) {
+  json answers = json::array();
+  for (const store::FeelAnswerRow& row : store::answers_of(store::FeelTable(database).answers(study), code))
+    answers.push_back({{"trial", row.trial},
+                       {"chosen", row.chosen},
+                       {"session", row.session},
+                       {"answered_utc", row.answered_utc}});
+  return answers;
+}
+
 json ratings_by(store::Database& database, const std::string& study, const std::string& label) {
   json answers = json::array();
   for (const store::RatingRow& row : store::RatingTable(database).ratings(study))
@@ -199,7 +210,8 @@ json export_person(store::Database& database, const access::AccessControl& acces
   }
   json studies = json::array();
   for (const auto& [study, code] : store::StudyTable(database).codes_of(user.id))
-    studies.push_back({{"study", study}, {"participant", code}});
+    studies.push_back(
+        {{"study", study}, {"participant", code}, {"feel_answers", feel_answers_of(database, study, code)}});
   json rated = json::array();
   for (const auto& [study, label] : store::RatingTable(database).labels_of(user.id))
     rated.push_back({{"study", study}, {"rater", label}, {"ratings", ratings_by(database, study, label)}});

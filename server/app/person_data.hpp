@@ -16,6 +16,7 @@ namespace ream::app {
 /// - index of sessions: removed with the old labels; the next server reads the folders again
 /// - audit log: name, address and detail taken out; ids stay, and the chain holds
 /// - answers kept to be repeated, study_persons: removed; what the participant did stays under its code
+/// - study_feel_answers: stay under the code
 /// - study_raters: without the person; the ratings stay under the rater's label
 /// - before-restore-*: sessions and remarks as above, rows of the person removed, or emptied as the audit log
 /// - black boxes: figures only, they name nobody
