@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "api/replies.hpp"
 #include "api/request_values.hpp"
 #include "api/routes.hpp"
 #include "api/services.hpp"
@@ -61,7 +62,7 @@ std::vector<session::EndedSession> table_sessions(const Services& services, cons
   query.limit = SIZE_MAX;
   std::vector<session::EndedSession> sessions;
   for (const session::SessionRecord& record : sessions_for(services, request.caller, query).sessions) {
-    if (is_live(record.status.state)) continue;
+    if (is_live(record.status.state) || services.feel.hides(request.caller, record.request)) continue;
     const fs::path folder = services.sessions.folder_of(record.request.id);
     std::error_code failed;
     if (!fs::exists(session::metrics_json(folder), failed)) continue;
@@ -69,13 +70,6 @@ std::vector<session::EndedSession> table_sessions(const Services& services, cons
                         read_json_file(session::metrics_json(folder))});
   }
   return sessions;
-}
-
-net::Response csv_response(const session::ExportTable& table) {
-  net::Response response =
-      net::bytes_response(200, "text/csv; charset=utf-8; header=present", net::share(session::csv_of(table)));
-  response.headers.emplace_back("Content-Disposition", "attachment; filename=\"" + table.name + ".csv\"");
-  return response;
 }
 
 net::Response list_scores(const Services& services, const net::Request& request) {
@@ -87,7 +81,8 @@ net::Response list_scores(const Services& services, const net::Request& request)
   });
   table.name = "scores";
   if (query_text(request, "format") == "csv")
-    return csv_response(query_text(request, "table") == "codebook" ? codebook : table);
+    return query_text(request, "table") == "codebook" ? csv_response(codebook, codebook.name + ".csv")
+                                                      : csv_response(table, table.name + ".csv");
   return net::json_response(200, {{"rubric", {{"id", judge.rubric_id}, {"version", judge.rubric.version}}},
                                   {"scores", session::json_of(table)},
                                   {"codebook", session::json_of(codebook)}});
