@@ -57,6 +57,38 @@ std::optional<layout::FlatExchange> arguments(const Voxmap& voxmap, const Morton
   return e;
 }
 
+/// A run of points. The same operations as the kernel's, in floats; what is outside counts as void.
+#if defined(__x86_64__)
+__attribute__((optimize("O3"), target_clones("arch=x86-64-v4", "avx2", "default")))
+#endif
+FlatSums
+sums_of_points(const layout::FlatExchange& e, const uint8_t* gray, const float* xs, const float* ys,
+               const float* zs, size_t count) {
+  const float* m = e.voxel_from_tool.m;
+  const float* t = e.voxel_from_tool.t;
+  const auto dx = e.dims[0], dy = e.dims[1], dz = e.dims[2];
+  int32_t fx = 0, fy = 0, fz = 0, inside = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const float x = xs[i], y = ys[i], z = zs[i];
+    const float u = m[0] * x + m[1] * y + m[2] * z + t[0];
+    const float v = m[3] * x + m[4] * y + m[5] * z + t[1];
+    const float w = m[6] * x + m[7] * y + m[8] * z + t[2];
+    const bool here = (x >= e.voi_low[0]) & (y >= e.voi_low[1]) & (z >= e.voi_low[2]) & (x <= e.voi_high[0]) &
+                      (y <= e.voi_high[1]) & (z <= e.voi_high[2]) & (u >= 0.0f) & (v >= 0.0f) & (w >= 0.0f) &
+                      (u < static_cast<float>(dx)) & (v < static_cast<float>(dy)) &
+                      (w < static_cast<float>(dz));
+    const int32_t cu = here ? static_cast<int32_t>(u) : 0, cv = here ? static_cast<int32_t>(v) : 0,
+                  cw = here ? static_cast<int32_t>(w) : 0;
+    const int32_t level = here ? gray[cu + dx * (cv + dy * cw)] : 0;
+    const float strength = static_cast<float>(level) * e.force_scale;
+    fx += static_cast<int32_t>(strength * (e.centre[0] - x));
+    fy += static_cast<int32_t>(strength * (e.centre[1] - y));
+    fz += static_cast<int32_t>(strength * (e.centre[2] - z));
+    inside += level > 0 ? 1 : 0;
+  }
+  return {{fx, fy, fz}, inside};
+}
+
 FlatSums sums_of(const layout::FlatExchange& e) { return {{e.force[0], e.force[1], e.force[2]}, e.inside}; }
 
 }  // namespace
@@ -110,6 +142,47 @@ FlatSums FlatKernel::contact(const QuantisedPose& grid_from_tool, const FlatOpti
   kernel_.enqueue(queue_, shell_.codes.size(), local_items);
   exchange_.read(queue_, &*e, sizeof *e);
   return sums_of(*e);
+}
+
+FlatThreads::FlatThreads(const Voxmap& voxmap, const MortonShell& shell) : voxmap_(voxmap), shell_(shell) {
+  for (const uint32_t code : shell.codes) {
+    const Vec3f p = shell.point_mm(code);
+    x_.push_back(p.x());
+    y_.push_back(p.y());
+    z_.push_back(p.z());
+  }
+  thread_ = std::thread([this] { second_thread(); });
+}
+
+FlatThreads::~FlatThreads() {
+  stop_ = true;
+  thread_.join();
+}
+
+void FlatThreads::second_thread() {
+  const size_t half = x_.size() / 2;
+  for (uint32_t done = 0; !stop_.load(std::memory_order_relaxed);) {
+    const uint32_t asked = asked_.load(std::memory_order_acquire);
+    if (asked == done) continue;
+    second_sums_ = sums_of_points(exchange_, voxmap_.gray.data(), x_.data() + half, y_.data() + half,
+                                  z_.data() + half, x_.size() - half);
+    done = asked;
+    answered_.store(done, std::memory_order_release);
+  }
+}
+
+FlatSums FlatThreads::contact(const QuantisedPose& grid_from_tool) {
+  const auto found = arguments(voxmap_, shell_, grid_from_tool, {});
+  if (!found) return {};
+  exchange_ = *found;
+  const uint32_t turn = asked_.load(std::memory_order_relaxed) + 1;
+  asked_.store(turn, std::memory_order_release);
+  FlatSums sums =
+      sums_of_points(exchange_, voxmap_.gray.data(), x_.data(), y_.data(), z_.data(), x_.size() / 2);
+  while (answered_.load(std::memory_order_acquire) != turn) std::this_thread::yield();
+  for (size_t i = 0; i < 3; ++i) sums.force[i] += second_sums_.force[i];
+  sums.inside += second_sums_.inside;
+  return sums;
 }
 
 FlatSums flat_contact_cpu(Voxmap& voxmap, const MortonShell& shell, const QuantisedPose& grid_from_tool,

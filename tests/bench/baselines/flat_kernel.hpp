@@ -1,6 +1,8 @@
 #pragma once
 #include <array>
+#include <atomic>
 #include <cstdint>
+#include <thread>
 #include <vector>
 
 #include "bench/baselines/layout.h"
@@ -56,6 +58,30 @@ class FlatKernel {
   gpu::Program program_;
   gpu::Kernel kernel_;
   gpu::Buffer codes_, gray_, exchange_;
+};
+
+/// The same sums as a fair CPU form has them: coordinates decoded once, no branches, so that the compiler can
+/// work on many points at once, and on two threads. The second one spins between poses. Contact alone.
+class FlatThreads {
+ public:
+  /// `voxmap` must outlive it.
+  FlatThreads(const Voxmap& voxmap, const MortonShell& shell);
+  ~FlatThreads();
+  FlatThreads(const FlatThreads&) = delete;
+  FlatThreads& operator=(const FlatThreads&) = delete;
+  FlatSums contact(const QuantisedPose& grid_from_tool);
+
+ private:
+  void second_thread();
+
+  const Voxmap& voxmap_;
+  const MortonShell& shell_;
+  std::vector<float> x_, y_, z_;
+  layout::FlatExchange exchange_{};
+  FlatSums second_sums_;
+  std::atomic<uint32_t> asked_{0}, answered_{0};
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
 };
 
 /// The same sums in plain C++ on one thread. `inside`, when given, gets one byte a point: 1 where it is in

@@ -119,6 +119,20 @@ TEST(Baselines, FlatKernelGivesTheSumsOfItsPlainForm) {
   });
 }
 
+TEST(Baselines, TheFairFormGivesTheSumsOfThePlainOne) {
+  std::mt19937 random(test::seed(baselines_seed));
+  Scene s(random);
+  bench::FlatThreads threads(s.voxmap, s.codes);
+  int64_t total = 0;
+  for (int i = 0; i < 200; ++i) {
+    const QuantisedPose pose = s.pose(random);
+    const bench::FlatSums expected = bench::flat_contact_cpu(s.voxmap, s.codes, pose);
+    EXPECT_EQ(threads.contact(pose), expected) << "case " << i;
+    total += expected.inside;
+  }
+  EXPECT_GT(total, 10000);
+}
+
 TEST(Baselines, FlatForcesPointToTheMiddleOfTheTool) {
   std::mt19937 random(test::seed(baselines_seed));
   Scene s(random);
