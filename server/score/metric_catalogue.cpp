@@ -260,7 +260,7 @@ constexpr Metric catalogue[] = {
      "How far the pegs or the keel of the planned component reach beyond the outer cortex; 0 where they do "
      "not.",
      clavert, published, own_component, bone, reamed_bone, not_negative, at_most(0.0, 0.0)},
-    {"parts_through_vault", "Pegs through the vault", "",
+    {"parts_through_vault", "Parts through the vault", "",
      "How many pegs or keels of the planned component leave the vault.", clavert, published, own_component,
      bone, reamed_bone, not_negative, at_most(0.0, 0.0)},
     {"vault_depth_mm", "Bone left in the vault", "mm",

@@ -59,6 +59,7 @@ class RatingTable {
   const std::vector<statistics::RatingRow>& rows() const { return rows_; }
   const std::vector<std::string>& sessions() const { return sessions_; }
   size_t raters() const { return raters_.size(); }
+  const std::string& rater(size_t column) const { return raters_[column]; }
 
  private:
   RatingTable(const ValidityInput& input, ItemKind kind);

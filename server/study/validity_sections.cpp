@@ -35,9 +35,21 @@ std::vector<double> group_values(const std::vector<RatedSession>& sessions, cons
   return values_of(group_means(sessions, experience, measure));
 }
 
-std::string too_few_rated(size_t found) {
-  return "sessions that all raters rated: " + std::to_string(found) + "; at least " +
-         std::to_string(min_persons) + " are needed";
+/// With the rater who rated fewest, for one is enough to leave too few that all have rated.
+std::string too_few_rated(const RatingTable& table, size_t found) {
+  std::string fewest;
+  size_t least = table.rows().size() + 1;
+  for (size_t j = 0; j < table.raters(); ++j) {
+    const auto rated = static_cast<size_t>(std::count_if(
+        table.rows().begin(), table.rows().end(), [&](const auto& row) { return row[j].has_value(); }));
+    if (rated < least) least = rated, fewest = table.rater(j);
+  }
+  std::string words = "sessions that all raters rated: " + std::to_string(found) + "; at least " +
+                      std::to_string(min_persons) + " are needed";
+  if (least < table.rows().size())
+    words +=
+        "; " + fewest + " rated only " + std::to_string(least) + " of " + std::to_string(table.rows().size());
+  return words;
 }
 
 std::string too_few(const std::string& whom, size_t found) {
@@ -52,7 +64,7 @@ ValidityLine agreement_line(const std::string& measure, const RatingTable& table
   add_value(line, "raters", count_of(table.raters()));
   add_value(line, "dropped", count_of(table.rows().size() - complete));
   if (table.raters() > 1 && complete < min_persons) {
-    add_note(line, too_few_rated(complete));
+    add_note(line, too_few_rated(table, complete));
     return line;
   }
   const auto icc = statistics::intraclass_correlation(table.rows());
@@ -108,7 +120,7 @@ ValidityLine checklist_line(const std::string& item, const RatingTable& table) {
     return line;
   }
   if (complete.rows.size() < min_persons) {
-    add_note(line, too_few_rated(complete.rows.size()));
+    add_note(line, too_few_rated(table, complete.rows.size()));
     return line;
   }
   add_value(line, "agreement", share_of_equal_pairs(complete.rows));

@@ -159,6 +159,9 @@ TEST(ValidityReport, AChecklistSaysHowManyPairsAgreeWhereKappaCannot) {
   EXPECT_TRUE(value_of(line_of(report.checklist, "d"), "kappa"));
   EXPECT_EQ(notes_of(line_of(report.agreement, "a")),
             "sessions that all raters rated: 1; at least 3 are needed\n");
+  for (const char* id : {"s2", "s3", "s4"}) input.ratings.push_back({"R1", id, "a", 4});
+  EXPECT_EQ(notes_of(line_of(validity_report(input).agreement, "a")),
+            "sessions that all raters rated: 1; at least 3 are needed; R2 rated only 1 of 4\n");
 }
 
 TEST(ValidityReport, MeansOfTheSameNumbersInAnotherOrderAreEqual) {
