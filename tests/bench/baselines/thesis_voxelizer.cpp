@@ -198,10 +198,12 @@ void thesis_voxelizer_serial(const std::vector<float>& corners, const RasterGrid
   }
 }
 
-void set_up_once_serial(const std::vector<float>& corners, const RasterGrid& grid,
-                        std::vector<uint32_t>& words) {
-  for (size_t triangle = 0; triangle < corners.size() / 9; ++triangle) {
-    const Setup s(corners.data() + 9 * triangle, grid.dims);
+namespace {
+
+void set_up_once(const std::vector<float>& all_corners, size_t first, size_t end, const RasterGrid& grid,
+                 std::vector<uint32_t>& words) {
+  for (size_t triangle = first; triangle < end; ++triangle) {
+    const Setup s(all_corners.data() + 9 * triangle, grid.dims);
     for (int w = s.low[2]; w <= s.high[2]; ++w)
       for (int v = s.low[1]; v <= s.high[1]; ++v)
         for (int u = s.low[0]; u <= s.high[0]; ++u) {
@@ -212,6 +214,23 @@ void set_up_once_serial(const std::vector<float>& corners, const RasterGrid& gri
           words[word_of(grid, u, v, w)] |= 1u << (u % 32);
         }
   }
+}
+
+}  // namespace
+
+void set_up_once_serial(const std::vector<float>& corners, const RasterGrid& grid,
+                        std::vector<uint32_t>& words) {
+  set_up_once(corners, 0, corners.size() / 9, grid, words);
+}
+
+void set_up_once_threads(const std::vector<float>& corners, const RasterGrid& grid,
+                         std::vector<uint32_t>& words) {
+  const size_t triangles = corners.size() / 9;
+  std::vector<uint32_t> other(words.size(), 0);
+  std::thread second([&] { set_up_once(corners, triangles / 2, triangles, grid, other); });
+  set_up_once(corners, 0, triangles / 2, grid, words);
+  second.join();
+  for (size_t i = 0; i < words.size(); ++i) words[i] |= other[i];
 }
 
 uint64_t triangle_based_tests(const std::vector<float>& corners, const RasterGrid& grid) {

@@ -41,6 +41,10 @@ void thesis_voxelizer_serial(const std::vector<float>& corners, const voxelizer:
 void set_up_once_serial(const std::vector<float>& corners, const voxelizer::RasterGrid& grid,
                         std::vector<uint32_t>& words);
 
+/// The second of them on two threads, half of the triangles each, as CPU voxelizers are run.
+void set_up_once_threads(const std::vector<float>& corners, const voxelizer::RasterGrid& grid,
+                         std::vector<uint32_t>& words);
+
 /// Pairs of triangle and voxel that are tested: all voxels of each triangle's box (table 3.1, TB).
 uint64_t triangle_based_tests(const std::vector<float>& corners, const voxelizer::RasterGrid& grid);
 

@@ -62,7 +62,7 @@ void measure_in_turns(std::vector<Contender*> contenders) {
 /// cleared bits.
 struct Times {
   double cpu, opencl, by_pair = not_there, by_voxel = not_there, by_column = not_there;
-  double serial = not_there, serial_once = not_there;
+  double serial = not_there, serial_once = not_there, once_threads = not_there;
   double solid, solid_opencl, first_and_last = not_there;
   uint64_t voxels = 0, solid_voxels = 0;
 };
@@ -77,7 +77,8 @@ struct Bench {
     voxelizer::Request surface, inside;
     inside.solid = true;
     inside.surface = false;
-    Contender ours, ours_cl, by_pair, by_voxel, by_column, serial, serial_once, fill, fill_cl, first_last;
+    Contender ours, ours_cl, by_pair, by_voxel, by_column, serial, serial_once, once_threads, fill, fill_cl,
+        first_last;
     ours.work = [&] { cpu.voxelize(mesh, surface, set); };
     ours_cl.work = [&] { opencl.voxelize(mesh, surface, set); };
     if (solid) {
@@ -101,13 +102,15 @@ struct Bench {
                 {},
                 slow_rounds};
       serial_once = {serial.prepare, [&] { set_up_once_serial(corners, grid, words); }, {}, slow_rounds};
+      once_threads = {serial.prepare, [&] { set_up_once_threads(corners, grid, words); }, {}, slow_rounds};
       if (solid) first_last = {{}, [&] { first_and_last_hit_fill(thesis->words(), grid); }, {}, slow_rounds};
     }
-    measure_in_turns({&ours, &by_pair, &by_voxel, &by_column, &ours_cl, &serial, &serial_once, &fill,
-                      &fill_cl, &first_last});
-    return {ours.time_ms(),      ours_cl.time_ms(),    by_pair.time_ms(),     by_voxel.time_ms(),
-            by_column.time_ms(), serial.time_ms(),     serial_once.time_ms(), fill.time_ms(),
-            fill_cl.time_ms(),   first_last.time_ms(), set.filled(),          other.filled()};
+    measure_in_turns({&ours, &by_pair, &by_voxel, &by_column, &ours_cl, &serial, &serial_once, &once_threads,
+                      &fill, &fill_cl, &first_last});
+    return {ours.time_ms(),      ours_cl.time_ms(), by_pair.time_ms(),     by_voxel.time_ms(),
+            by_column.time_ms(), serial.time_ms(),  serial_once.time_ms(), once_threads.time_ms(),
+            fill.time_ms(),      fill_cl.time_ms(), first_last.time_ms(),  set.filled(),
+            other.filled()};
   }
 };
 
@@ -128,6 +131,7 @@ void add_rows(const std::string& mesh, const Times& t, std::vector<Row>& rows) {
   times_faster("per-column kernel / OpenCL", t.by_column, t.opencl, 0.0);
   times_faster("single-thread form / cpu", t.serial, t.cpu, goals.by_voxel > 0.0 ? goal_single_thread : 0.0);
   times_faster("single-thread form set up once a triangle / cpu", t.serial_once, t.cpu, 0.0);
+  times_faster("form set up once a triangle on two threads / cpu", t.once_threads, t.cpu, 0.0);
   if (!std::isnan(t.solid)) {
     rows.push_back({"voxelize", name + ": solid, cpu", t.solid, 0.0, "ms", 0.0});
     rows.push_back({"voxelize", name + ": solid, OpenCL", t.solid_opencl, 0.0, "ms", 0.0});

@@ -1,8 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <numeric>
+#include <set>
 
 #include "bench/baselines/flat_kernel.hpp"
+#include "bench/baselines/thesis_mesher.hpp"
+#include "bench/baselines/thesis_voxelizer.hpp"
 #include "bench/baselines/yau.hpp"
 #include "bench/baselines/zheng.hpp"
 #include "gpu/queue.hpp"
@@ -10,6 +15,7 @@
 #include "support/random_bone.hpp"
 #include "support/random_pose.hpp"
 #include "support/seed.hpp"
+#include "voxelizer/voxel_set.hpp"
 
 // A baseline that finds the wrong points proves nothing about speed.
 namespace ream::test {
@@ -131,6 +137,36 @@ TEST(Baselines, TheFairFormGivesTheSumsOfThePlainOne) {
     total += expected.inside;
   }
   EXPECT_GT(total, 10000);
+}
+
+TEST(Baselines, HashMapsOnTwoThreadsNumberTheSameNodes) {
+  std::vector<bench::VoxelRow> rows;
+  std::mt19937 random(test::seed(baselines_seed));
+  for (int i = 0; i < 2000; ++i)
+    rows.push_back({{0.5f * static_cast<float>(random() % 12), 0.5f * static_cast<float>(random() % 12),
+                     0.5f * static_cast<float>(random() % 12)},
+                    1.0f});
+  const auto nodes = bench::nodes_of(rows, Vec3::Constant(0.5));
+  std::vector<uint32_t> one, two;
+  EXPECT_EQ(bench::index_by_two_hash_maps(nodes, two).nodes, bench::index_by_hash_map(nodes, one).nodes);
+  std::map<uint32_t, uint32_t> other_number;
+  for (size_t i = 0; i < nodes.size(); ++i)
+    EXPECT_EQ(other_number.emplace(one[i], two[i]).first->second, two[i]) << i;
+  std::set<uint32_t> numbers(two.begin(), two.end());
+  EXPECT_EQ(numbers.size(), other_number.size());
+  EXPECT_EQ(*numbers.rbegin() + 1, numbers.size());
+}
+
+TEST(Baselines, TrianglesOnTwoThreadsMarkTheSameVoxels) {
+  const TriangleMesh mesh = shell::revolve(shell::make_tool("ellipse 8,5 nipple 2,3").profile, 48);
+  const voxelizer::RasterGrid grid =
+      voxelizer::grid_around(voxelizer::used_bounds(mesh, 1.0), Vec3::Constant(0.3));
+  const std::vector<float> corners = bench::thesis_corners(mesh, grid);
+  std::vector<uint32_t> serial(voxelizer::VoxelSet(grid).word_count(), 0), threads = serial;
+  bench::set_up_once_serial(corners, grid, serial);
+  bench::set_up_once_threads(corners, grid, threads);
+  EXPECT_EQ(threads, serial);
+  EXPECT_GT(std::count_if(serial.begin(), serial.end(), [](uint32_t word) { return word != 0; }), 100);
 }
 
 TEST(Baselines, FlatForcesPointToTheMiddleOfTheTool) {
