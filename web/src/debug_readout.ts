@@ -29,6 +29,8 @@ export interface DebugReadout {
   /** Steering from this page: state of the device's connection, else null. */
   deviceLink: string | null;
   pushN: number;
+  /** Also where theatre shows no numbers, mm³. */
+  removedMm3: number | null;
   /** How far the reamer's origin is past the planned entry along the axis, mm. */
   toolDepthMm: number | null;
   /** The newest parameters of the sound. */
@@ -73,6 +75,7 @@ export function publishDebugReadout({ store, practice, scene, sound, latency }: 
       positionTicks: store.playback.value?.positionTicks ?? null,
       deviceLink: practice.sessionId.value === null ? null : practice.link.value.kind,
       pushN: practice.hand.pushN.value,
+      removedMm3: store.telemetry.value?.removedVolumeMm3 ?? null,
       toolDepthMm: toolDepthMm(store),
       sound: sound.parameters.value,
       eye: scene.eye(),

@@ -22,6 +22,7 @@ import { addressOfReplay, replayInAddress } from './state/replay_address';
 import { addressOfRoute, followRoute, type Route, routeInAddress, showsSession } from './state/route';
 import { Sound } from './state/sound';
 import { Store } from './state/store';
+import { FeelWatch } from './state/study/feel_watch';
 import { theatreHere } from './state/theatre';
 import { theme } from './state/theme';
 import { ViewSettings } from './state/view_settings';
@@ -32,6 +33,7 @@ import { WorkerDeviceSocket } from './wire/device_socket';
 import { LoginApi } from './wire/login_api';
 import { ReviewApi } from './wire/review_api';
 import { WorkerStreamSocket } from './wire/stream_socket';
+import { StudyApi } from './wire/study_api';
 import { appText } from './text/app_text';
 
 function main(root: HTMLElement): void {
@@ -97,6 +99,7 @@ function main(root: HTMLElement): void {
         theatreWanted: signal(false),
         practice,
         practiceStore,
+        feel: watchForFeel(identity, { store, practice: practiceStore, route }),
       }}
       identity={identity}
     />,
@@ -108,6 +111,14 @@ function main(root: HTMLElement): void {
   beginWithOverview(identity, route);
   void identity.find(linkSecret);
   watchWhenKnown(identity, route, () => goOnSteering(api, store, practice), { watcher, practice, practiceStore });
+}
+
+function watchForFeel(
+  identity: Identity,
+  watched: { store: Store; practice: PracticeStore; route: Signal<Route> },
+): FeelWatch {
+  const studies = new StudyApi(window.location.origin);
+  return new FeelWatch({ ...watched, may: () => identity.may.value, study: (id) => studies.study(id) });
 }
 
 /** Who teaches and logs in begins the day with the overview, unless the address names a page. */

@@ -15,6 +15,7 @@ const casePages = lazyPart(() => import('./case_pages'));
 const sessionPages = lazyPart(() => import('./session_pages'));
 const reviewPage = lazyPart(() => import('./review_page'));
 const studyPages = lazyPart(() => import('./study_pages'));
+const feelPage = lazyPart(() => import('./feel_session_page'));
 const accessPages = lazyPart(() => import('./access_pages'));
 
 interface Parts {
@@ -58,10 +59,8 @@ function Page({ route, live, identity }: { route: Route; live: LivePageParts; id
       if (!may.ream) return <NotForYou />;
       return dashboardPage.show(({ DashboardPage }) => <DashboardPage live={live} />);
     case 'live':
-      // Who reams in theatre sees no panels, wherever the page was opened.
-      return live.view.theatre.value ? <TraineePage {...live} /> : <LivePage {...live} />;
     case 'trainee':
-      return <TraineePage {...live} />;
+      return <WatchedSession live={live} route={route} />;
     case 'cases':
     case 'case':
       if (!may.readCases) return <NotForYou />;
@@ -86,6 +85,14 @@ function Page({ route, live, identity }: { route: Route; live: LivePageParts; id
       if (identity.userId.value === null) return <NotForYou />;
       return accessPages.show(({ AccountPage }) => <AccountPage />);
   }
+}
+
+function WatchedSession({ live, route }: { live: LivePageParts; route: Route }) {
+  // Who reams in theatre sees no panels, wherever the page was opened.
+  if (live.view.theatre.value) return <TraineePage {...live} />;
+  const hidden = live.feel.hidden.value;
+  if (hidden !== null) return feelPage.show(({ FeelSessionPage }) => <FeelSessionPage live={live} session={hidden} />);
+  return route.kind === 'trainee' ? <TraineePage {...live} /> : <LivePage {...live} />;
 }
 
 function NotForYou() {

@@ -24,6 +24,7 @@ import type { Practice } from '../state/practice';
 import type { PracticeStore } from '../state/practice_store';
 import type { Sound } from '../state/sound';
 import type { Store } from '../state/store';
+import type { FeelWatch } from '../state/study/feel_watch';
 import type { ViewSettings } from '../state/view_settings';
 import type { Watcher } from '../state/watcher';
 
@@ -43,6 +44,7 @@ export interface LivePageParts {
   theatreWanted: Signal<boolean>;
   practice: Practice;
   practiceStore: PracticeStore;
+  feel: FeelWatch;
 }
 
 /** One session, live or as it was recorded: picture, force, numbers, and what can be done. */

@@ -4,6 +4,8 @@ import { PageHeader } from '../panels/common/page_header';
 import { Message } from '../panels/common/fields';
 import { useIdentity } from '../panels/common/site_nav';
 import { EnrolPanel } from '../panels/study/enrol_panel';
+import { FeelPanel } from '../panels/study/feel_panel';
+import { FeelReportPanel } from '../panels/study/feel_report';
 import { ExportPanel, StudyStatePanel } from '../panels/study/study_state_panel';
 import { ParticipantTable } from '../panels/study/participant_table';
 import { RaterPanel } from '../panels/study/rater_panel';
@@ -11,6 +13,7 @@ import { TrainPanel } from '../panels/study/train_panel';
 import { ValidityPanel } from '../panels/study/validity_panel';
 import { Remote } from '../state/remote';
 import { addressOfRoute } from '../state/route';
+import { feelText } from '../text/feel_text';
 import { studyText } from '../text/study_text';
 import type { StudyApi } from '../wire/study_api';
 import type { Participant, Study } from '../wire/rest_types';
@@ -18,7 +21,7 @@ import type { Participant, Study } from '../wire/rest_types';
 interface Parts {
   api: StudyApi;
   id: string;
-  train: (studyId: string, participant: string | null, caseId: string) => Promise<string | null>;
+  train: (study: Study, participant: string | null, caseId: string) => Promise<string | null>;
 }
 
 /** One study: training in it, and for who runs it everything else. */
@@ -32,9 +35,10 @@ export function StudyPage({ api, id, train }: Parts) {
   }, [studies, participants, may.teach]);
   const study = studies.value.value;
   const empty = participants.value.value?.length === 0;
-  const codes = may.teach ? (participants.value.value ?? []).map((one) => one.code) : [];
+  const listed = may.teach ? (participants.value.value ?? []) : [];
   const begin = async (participant: string | null, caseId: string) => {
-    const problem = await train(id, participant, caseId);
+    if (study === null) return false;
+    const problem = await train(study, participant, caseId);
     if (problem !== null) studies.problem.value = problem;
     return problem === null;
   };
@@ -57,11 +61,27 @@ export function StudyPage({ api, id, train }: Parts) {
           {study === null && studies.problem.value === null && <p class="soft">{studyText.loading}</p>}
           {study !== null && <About {...{ api, study, studies, mayRun: may.teach, empty, removed }} />}
         </section>
-        {study !== null && <TrainPanel key={study.id} study={study} codes={codes} train={begin} />}
+        {study !== null && <OwnPart key={study.id} {...{ api, study, listed }} train={begin} />}
         {study !== null && may.teach && <Staff {...{ api, study, studies, participants }} />}
       </main>
     </div>
   );
+}
+
+interface OwnPartParts {
+  api: StudyApi;
+  study: Study;
+  /** Participants among whom the user may choose. */
+  listed: readonly Participant[];
+  train: (participant: string | null, caseId: string) => Promise<boolean>;
+}
+
+/** What a participant does in the study, or staff in their place. */
+function OwnPart({ api, study, listed, train }: OwnPartParts) {
+  if (!study.feel) return <TrainPanel {...{ study, train }} codes={listed.map(({ code }) => code)} />;
+  // Whoever has an account answers by it.
+  const codes = listed.filter((one) => !one.has_account).map(({ code }) => code);
+  return <FeelPanel {...{ api, study, codes, train }} />;
 }
 
 interface AboutParts {
@@ -97,7 +117,12 @@ function About({ api, study, studies, mayRun, empty, removed }: AboutParts) {
 }
 
 function factsOf(study: Study): string[] {
-  const facts = [`${studyText.cases}: ${study.cases.join(', ')}`];
+  const { feel } = study;
+  const facts = [
+    feel
+      ? feelText.fact(feel.comparisons.length * feel.trials_per_comparison)
+      : `${studyText.cases}: ${study.cases.join(', ')}`,
+  ];
   if (study.device !== null) facts.push(`${studyText.device}: ${deviceText(study.device)}`);
   if (study.questionnaire) facts.push(`${studyText.questionnaire}: ${study.questionnaire.title}`);
   if (study.design) facts.push(`${studyText.arms}: ${study.design.arms.map((arm) => arm.name).join(', ')}`);
@@ -119,10 +144,14 @@ function Staff({ api, study, studies, participants }: StaffParts) {
   return (
     <>
       <ParticipantTable key={study.state} {...{ api, study, participants }} />
-      <RaterPanel {...{ api, study }} />
+      {!study.feel && <RaterPanel {...{ api, study }} />}
       {study.state === 'open' && <EnrolPanel {...{ api, study, participants }} />}
       <ExportPanel {...{ api, study, studies }} />
-      <ValidityPanel key={`${study.id} ${study.state}`} {...{ api, study }} />
+      {study.feel ? (
+        <FeelReportPanel key={`${study.id} ${study.state}`} {...{ api, study }} />
+      ) : (
+        <ValidityPanel key={`${study.id} ${study.state}`} {...{ api, study }} />
+      )}
     </>
   );
 }

@@ -1,8 +1,9 @@
 import '../styles/pages.css';
 import '../styles/study.css';
 
-import type { Route } from '../state/route';
+import { addressOfRoute, type Route } from '../state/route';
 import { StudyApi } from '../wire/study_api';
+import type { Study } from '../wire/rest_types';
 import { noAnswer } from '../wire/rest';
 import type { LivePageParts } from './live_page';
 import { QuestionnairePage } from './questionnaire_page';
@@ -32,18 +33,23 @@ export function StudyPages({ route, live }: { route: Route; live: LivePageParts 
 /** Makes a session of a study and shows it; words where that failed. */
 async function train(
   { watcher, practice, store }: LivePageParts,
-  studyId: string,
+  study: Study,
   participant: string | null,
   caseId: string,
 ): Promise<string | null> {
   if (store.replayId.value !== null) watcher.leaveReplay();
-  const session = await watcher.train(studyId, participant, caseId);
+  const session = await watcher.train(study.id, participant, caseId);
   if (session === null) {
     const reason = store.problem.value ?? noAnswer;
     store.problem.value = null;
     return reason;
   }
-  window.location.hash = '';
-  if (session.device.name === 'browser') practice.steer(session.id);
+  const inBrowser = session.device.name === 'browser';
+  if (study.feel) {
+    // Another session under way elsewhere is not to take its place before it is answered.
+    store.chosenId.value = session.id;
+    window.location.hash = addressOfRoute({ kind: inBrowser ? 'live' : 'trainee' });
+  } else window.location.hash = '';
+  if (inBrowser) practice.steer(session.id);
   return null;
 }

@@ -11,8 +11,9 @@ import type { LivePageParts } from './live_page';
 
 /** What the trainee sees: the picture as large as the window, and nothing beside it that takes time to draw. */
 export function TraineePage(parts: LivePageParts) {
-  const { store, watcher, scene, view, alarms, sound, practiceStore } = parts;
+  const { store, watcher, scene, view, alarms, sound, practiceStore, feel } = parts;
   const theatre = view.theatre.value;
+  const endsHere = practiceStore.sessionId.value !== null || feel.hidden.value !== null;
   useLiveKeys(useMemo(() => ({ f: () => void fullScreen() }), []));
   return (
     <div class="trainee-page" data-testid="trainee-page" data-theatre={theatre}>
@@ -25,7 +26,7 @@ export function TraineePage(parts: LivePageParts) {
           </button>
           {theatre ? (
             store.active.value &&
-            practiceStore.sessionId.value !== null && (
+            endsHere && (
               <button
                 type="button"
                 class="strip-button"

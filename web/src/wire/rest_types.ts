@@ -17,6 +17,11 @@ export type {
   CaseSummary,
   ChoiceItem,
   Experience,
+  FeelAnswer,
+  FeelComparison,
+  FeelPlace,
+  FeelReport,
+  FeelTrial,
   GivenAnswers,
   Job,
   Landmarks,
@@ -28,6 +33,7 @@ export type {
   Measures,
   Metrics,
   NewCase,
+  NewFeelTrials,
   NewParticipant,
   NewPlan,
   NewRater,
@@ -41,6 +47,7 @@ export type {
   Plan,
   PlanAssessment,
   PlanTargets,
+  PlateName,
   PlaybackChange,
   Point as Triple,
   Questionnaire,
@@ -50,6 +57,7 @@ export type {
   Reamer,
   Replay,
   Role,
+  SampleSize,
   Score,
   ScoredMetric,
   SegmentationSettings,
@@ -76,6 +84,9 @@ export type WalchClass = NonNullable<wire.Landmarks['walch']>;
 export type SeedName = keyof NonNullable<wire.SegmentationSettings['seeds']>;
 /** One page of the list of sessions. */
 export type SessionPage = Pick<wire.SessionList, 'sessions' | 'next' | 'total'>;
+/** What a study's size depends on, and the question that it is to answer. */
+export type SampleInput = wire.operations['getSampleSize']['parameters']['query'];
+export type SampleQuestion = SampleInput['question'];
 export type Person = wire.PersonList['persons'][number];
 
 export const accountRoles: readonly wire.AccountRole[] = ['operator', 'instructor', 'trainee'];

@@ -1,5 +1,8 @@
 import { RestClient } from './rest_client';
 import type {
+  FeelAnswer,
+  FeelPlace,
+  FeelReport,
   GivenAnswers,
   NewParticipant,
   NewStudy,
@@ -8,6 +11,8 @@ import type {
   QueuedRating,
   Rater,
   Replay,
+  SampleInput,
+  SampleSize,
   Study,
   ValidityReport,
 } from './rest_types';
@@ -97,6 +102,28 @@ export class StudyApi {
   }
   async validityFile(id: string, form: ValidityFile): Promise<Blob> {
     return (await this.rest.request('get', '/api/v1/studies/{id}/validity', { path: { id }, query: { form } })).blob();
+  }
+
+  /** The trial of a study of feel that a participant does next. */
+  feelTrial(id: string, code: string): Promise<FeelPlace> {
+    return this.rest.json('get', '/api/v1/studies/{id}/participants/{code}/feel-trial', { path: { id, code } });
+  }
+  /** The trial after it. */
+  answerFeelTrial(id: string, code: string, body: FeelAnswer): Promise<FeelPlace> {
+    return this.rest.json('put', '/api/v1/studies/{id}/participants/{code}/feel-trial', { path: { id, code }, body });
+  }
+  async feelReport(id: string): Promise<FeelReport> {
+    return (
+      await this.rest.request('get', '/api/v1/studies/{id}/feel', { path: { id } })
+    ).json() as Promise<FeelReport>;
+  }
+  /** Every answer of a study of feel, as CSV. */
+  async feelAnswers(id: string): Promise<Blob> {
+    const query = { form: 'answers' } as const;
+    return (await this.rest.request('get', '/api/v1/studies/{id}/feel', { path: { id }, query })).blob();
+  }
+  sampleSize(query: SampleInput): Promise<SampleSize> {
+    return this.rest.json('get', '/api/v1/sample-size', { query });
   }
 
   /** A table for statistics, or all of them as JSON. */

@@ -1,6 +1,7 @@
 import { useMemo } from 'preact/hooks';
 
 import { type QuestionnaireChoice, StudyDraft } from '../../state/study/study_draft';
+import { feelText } from '../../text/feel_text';
 import { studyText } from '../../text/study_text';
 import { CaseApi } from '../../wire/case_api';
 import { messageOf } from '../../wire/rest';
@@ -10,6 +11,8 @@ import { Choice, TextLine } from '../common/form_fields';
 import { useRemote } from '../common/use_remote';
 import { Button } from '../common/button';
 import { DesignFields } from './design_fields';
+import { FeelFields } from './feel_fields';
+import { SampleSizeHelp } from './sample_size_help';
 
 /** The form for another study. */
 export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: string) => void }) {
@@ -26,10 +29,16 @@ export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: st
   return (
     <section class="content-panel" aria-labelledby="make-title">
       <h2 id="make-title">{studyText.make}</h2>
+      <SampleSizeHelp api={api} />
       <form class="content-form" onSubmit={(event) => void make(event)}>
         <TextLine
           {...{ label: studyText.name, testId: 'study-name', required: true, maxLength: 200, value: draft.name.value }}
           onInput={(name) => (draft.name.value = name)}
+        />
+        <Choice
+          {...{ label: feelText.kind, testId: 'study-kind', value: draft.feel.used.value ? 'feel' : 'scores' }}
+          options={feelText.kinds}
+          onChange={(kind) => (draft.feel.used.value = kind === 'feel')}
         />
         <Choice
           {...{
@@ -41,17 +50,9 @@ export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: st
           onChange={(device) => (draft.device.value = device)}
         />
         <QuestionnaireFields draft={draft} />
-        <Choice
-          {...{ label: studyText.ratingForm, testId: 'study-rating-form', value: draft.rated.value ? 'ours' : '' }}
-          options={[
-            ['ours', studyText.ownRatingForm],
-            ['', studyText.noRatingForm],
-          ]}
-          onChange={(chosen) => (draft.rated.value = chosen !== '')}
-        />
-        <DesignFields draft={draft.design} />
+        {draft.feel.used.value ? <FeelFields draft={draft.feel} /> : <DesignAndRaters draft={draft} />}
         <DescriptionField draft={draft} />
-        <CaseFields draft={draft} />
+        {!draft.feel.used.value && <CaseFields draft={draft} />}
         <Button submit look="main" testId="make-study" disabled={!draft.complete}>
           {studyText.makeButton}
         </Button>
@@ -62,6 +63,22 @@ export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: st
         </Message>
       )}
     </section>
+  );
+}
+
+function DesignAndRaters({ draft }: { draft: StudyDraft }) {
+  return (
+    <>
+      <Choice
+        {...{ label: studyText.ratingForm, testId: 'study-rating-form', value: draft.rated.value ? 'ours' : '' }}
+        options={[
+          ['ours', studyText.ownRatingForm],
+          ['', studyText.noRatingForm],
+        ]}
+        onChange={(chosen) => (draft.rated.value = chosen !== '')}
+      />
+      <DesignFields draft={draft.design} />
+    </>
   );
 }
 

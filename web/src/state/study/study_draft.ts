@@ -1,6 +1,7 @@
 import { signal } from '@preact/signals';
 
 import { DesignDraft } from './design_draft';
+import { FeelDraft } from './feel_draft';
 import { studyText } from '../../text/study_text';
 import type { NewStudy } from '../../wire/rest_types';
 
@@ -15,6 +16,8 @@ export class StudyDraft {
   /** Empty: the server's usual one. */
   readonly device = signal('browser');
   readonly design = new DesignDraft();
+  /** Where it is used, the study has neither cases nor design nor raters. */
+  readonly feel = new FeelDraft();
   /** Raters fill in the form that comes with the program; else nobody rates. */
   readonly rated = signal(true);
   readonly questionnaireChoice = signal<QuestionnaireChoice>('ours');
@@ -24,11 +27,9 @@ export class StudyDraft {
   readonly problem = signal<string | null>(null);
 
   get complete(): boolean {
-    return (
-      this.design.complete &&
-      this.cases.value.length > 0 &&
-      (this.questionnaireChoice.value !== 'file' || this.questionnaire.value !== null)
-    );
+    const answerable = this.questionnaireChoice.value !== 'file' || this.questionnaire.value !== null;
+    if (this.feel.used.value) return answerable && this.feel.complete;
+    return answerable && this.design.complete && this.cases.value.length > 0;
   }
 
   toggleCase(id: string): void {
@@ -50,17 +51,23 @@ export class StudyDraft {
   /** What the server is asked for. */
   study(): NewStudy {
     const questionnaireChoice = this.questionnaireChoice.value;
-    const design = this.design.design();
     return {
       name: this.name.value.trim(),
       description: this.description.value.trim(),
-      cases: [...this.cases.value],
-      ...(design === null ? {} : { design }),
-      ...(this.rated.value ? {} : { rating_form: null }),
       ...(this.device.value === '' ? {} : { device: this.device.value }),
       ...(questionnaireChoice === 'ours'
         ? {}
         : { questionnaire: questionnaireChoice === 'none' ? null : this.questionnaire.value }),
+      ...(this.feel.used.value ? { feel: this.feel.feel(), rating_form: null } : this.ofScores()),
+    };
+  }
+
+  private ofScores(): Pick<NewStudy, 'cases' | 'design' | 'rating_form'> {
+    const design = this.design.design();
+    return {
+      cases: [...this.cases.value],
+      ...(design === null ? {} : { design }),
+      ...(this.rated.value ? {} : { rating_form: null }),
     };
   }
 }
