@@ -46,7 +46,7 @@ std::vector<Answered> answered_by(const Study& study, const std::string& code,
 
 void add_figures(FeelLine& line, const std::vector<double>& shares) {
   if (shares.size() < min_persons) {
-    line.note = std::to_string(shares.size()) + " persons have answered all trials; at least " +
+    line.note = "persons who have answered all trials: " + std::to_string(shares.size()) + "; at least " +
                 std::to_string(min_persons) + " are needed";
     return;
   }
