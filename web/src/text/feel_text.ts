@@ -55,7 +55,7 @@ export const feelText = {
   show: 'Show the report',
   again: 'Compute it again',
   computing: 'Computing…',
-  csv: 'Every answer (CSV)',
+  csv: 'Answers of all trials (CSV)',
   nobody: 'Nobody has answered yet.',
   answered: (participants: number) =>
     participants === 1 ? 'One participant has answered.' : `${participants} participants have answered.`,

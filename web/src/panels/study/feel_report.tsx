@@ -58,8 +58,8 @@ function Report({ report: { participants, lines } }: { report: FeelReport }) {
   const notes = rows.some(({ note }) => note !== '');
   return (
     <div data-testid="feel-report">
-      <p class="soft">{participants === 0 ? feelText.nobody : feelText.answered(participants)}</p>
-      <div class="table-scroll">
+      <p class="soft feel-count">{participants === 0 ? feelText.nobody : feelText.answered(participants)}</p>
+      <div class="table-scroll" role="region" aria-label={feelText.report} tabIndex={0}>
         <table class="data-table feel-report">
           <Head notes={notes} />
           <tbody>

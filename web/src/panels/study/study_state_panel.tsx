@@ -79,6 +79,8 @@ const tables = [
 export function ExportPanel({ api, study, studies }: Pick<Parts, 'api' | 'study' | 'studies'>) {
   const may = useIdentity().may.value;
   const allowed = may.operate || study.state === 'closed';
+  // Nobody rates a study of feel.
+  const shown = tables.filter(([table]) => table !== 'ratings' || !study.feel);
   const save = (name: string, get: () => Promise<Blob>) =>
     void studies.act(async () => saveBlob(await get(), `${study.id}-${name}`));
   return (
@@ -86,7 +88,7 @@ export function ExportPanel({ api, study, studies }: Pick<Parts, 'api' | 'study'
       <h2 id="export-title">{studyText.exports}</h2>
       <p class="soft">{allowed ? studyText.exportHint : studyText.exportClosed}</p>
       <div class="content-form">
-        {tables.map(([table, label]) => (
+        {shown.map(([table, label]) => (
           <button
             key={table}
             type="button"
