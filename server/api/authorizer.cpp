@@ -92,10 +92,19 @@ void Authorizer::require_sight(const net::Request& request, const Route& route) 
   } else if (const auto session = sessions_.session_of(id); session && !may_see(request.caller, *session)) {
     refuse_unseen(id);
   }
-  if (shows_results(route) && sessions_.hides_results(request.caller, id))
-    throw net::RequestError(403, "session '" + id +
+  if (shows_results(route) || sessions_.is_replay(id)) require_shown(request.caller, id);
+}
+
+void Authorizer::require_shown(const net::Caller& caller, const std::string& session) const {
+  if (sessions_.hides_results(caller, session))
+    throw net::RequestError(403, "session '" + session +
                                      "' is of a study of feel; what it measured stays hidden until the study "
                                      "is closed");
+}
+
+void Authorizer::require_results(const net::Caller& caller, const std::string& session) const {
+  require_unrated(caller, session);
+  require_shown(caller, session);
 }
 
 void Authorizer::require_unrated(const net::Caller& caller, const std::string& session) const {

@@ -35,11 +35,14 @@ class Authorizer {
 
   /// RequestError 403 for a session that the caller rates.
   void require_unrated(const net::Caller& caller, const std::string& session) const;
+  /// The same, and 403 where what the session measured is hidden from the caller.
+  void require_results(const net::Caller& caller, const std::string& session) const;
 
   /// Whether the server lets in everybody.
   bool is_open() const { return !access_control_.users.any(); }
 
  private:
+  void require_shown(const net::Caller& caller, const std::string& session) const;
   void require_sight(const net::Request& request, const Route& route) const;
 
   access::AccessControl& access_control_;

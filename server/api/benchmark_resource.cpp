@@ -50,7 +50,7 @@ std::vector<score::EndedSession> measured(const Services& services, const net::R
       throw net::RequestError(422, "session '" + ids[i] + "' " + why,
                               {{pointer_to(key) + "/" + std::to_string(i), why}});
     };
-    services.authorizer.require_unrated(request.caller, ids[i]);
+    services.authorizer.require_results(request.caller, ids[i]);
     try {
       if (is_live(services.sessions.get(ids[i]).status.state)) refuse("has not ended");
       sessions.push_back({ids[i], nullptr, services.sessions.metrics(ids[i])});

@@ -4,7 +4,6 @@
 #include "api/request_values.hpp"
 #include "api/routes.hpp"
 #include "api/services.hpp"
-#include "core/text.hpp"
 
 namespace ream::api {
 using nlohmann::json;

@@ -39,10 +39,12 @@ json job_json(const jobs::JobRecord& job) {
           {"result", std::move(result)}};
 }
 
-/// Operators and instructors may know of all work but that on sessions that they rate, others of that on
-/// sessions that they may see.
+/// Operators and instructors may know of all work but that on sessions that they rate or whose results are
+/// hidden from them, others of that on sessions that they may see.
 bool may_see_job(const Services& services, const net::Caller& caller, const jobs::JobRecord& job) {
-  if (job.order.session && services.ratings.hides(caller, *job.order.session)) return false;
+  if (job.order.session &&
+      (services.ratings.hides(caller, *job.order.session) || services.feel.hides(caller, *job.order.session)))
+    return false;
   if ((access::role_bit(caller.role) & access::staff) != 0) return true;
   return job.order.session && may_see(caller, *job.order.session);
 }

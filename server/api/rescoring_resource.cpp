@@ -34,14 +34,15 @@ std::vector<std::string> ids_by_filter(const Services& services, const net::Requ
   query.limit = SIZE_MAX;
   std::vector<std::string> ids;
   for (const session::SessionRecord& record : sessions_for(services, request.caller, query).sessions)
-    if (!is_live(record.status.state)) ids.push_back(record.request.id);
+    if (!is_live(record.status.state) && !services.feel.hides(request.caller, record.request))
+      ids.push_back(record.request.id);
   return ids;
 }
 
 std::vector<std::string> ids_named(const Services& services, const net::Request& request,
                                    const std::vector<std::string>& named) {
   for (const std::string& id : named) {
-    services.authorizer.require_unrated(request.caller, id);
+    services.authorizer.require_results(request.caller, id);
     require_ended(services.sessions.get(id), "it can be scored anew when it has ended");
   }
   return named;

@@ -53,8 +53,9 @@ session::SessionPage only(const session::SessionService& sessions, const store::
 json visible_replays(const Services& services, const net::Caller& caller) {
   json visible = json::array();
   for (const session::ReplayRecord& record : services.replays.list()) try {
-      if (!record.request.blind && may_see(caller, services.sessions.get(record.request.replay_of).request))
-        visible.push_back(to_json(record));
+      if (record.request.blind) continue;
+      const session::SessionRequest of = services.sessions.get(record.request.replay_of).request;
+      if (may_see(caller, of) && !services.feel.hides(caller, of)) visible.push_back(to_json(record));
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::not_found) throw;
     }

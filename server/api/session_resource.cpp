@@ -1,8 +1,10 @@
+#include "access/role.hpp"
 #include "api/replies.hpp"
 #include "api/request_values.hpp"
 #include "api/routes.hpp"
 #include "api/services.hpp"
 #include "api/session_list.hpp"
+#include "case/two_plates.hpp"
 #include "core/error.hpp"
 #include "net/problem.hpp"
 
@@ -62,6 +64,8 @@ void take_study(const Services& services, const net::Caller& caller, session::Se
     if (wanted.case_id.empty())
       throw net::RequestError(422, "'case' is missing; only a study knows which case is next",
                               {{"#/case", "is missing"}});
+    if (case_::is_two_plates(wanted.case_id) && !access::is_operator(caller.role))
+      throw Error(ErrorKind::not_found, "no case '" + wanted.case_id + "'; GET /api/v1/cases lists them");
     return;
   }
   if (!wanted.device.empty() || !wanted.script.empty() || !wanted.device_profile.empty() ||

@@ -19,6 +19,7 @@ class SessionFinder {
   /// Whether the caller rates the session with that id, and is to see no more of it than its replay. A replay
   /// has an id of its own and is not hidden.
   virtual bool is_rated_by(const net::Caller& caller, const std::string& id) const = 0;
+  virtual bool is_replay(const std::string& id) const = 0;
   /// Whether the caller may reach a session, but nothing that it has measured.
   virtual bool hides_results(const net::Caller& caller, const std::string& id) const = 0;
 };
@@ -31,6 +32,7 @@ class ServedSessions final : public SessionFinder {
       : sessions_(sessions), replays_(replays), ratings_(ratings), feel_(feel) {}
   std::optional<session::SessionRequest> session_of(const std::string& id) const override;
   bool is_rated_by(const net::Caller& caller, const std::string& id) const override;
+  bool is_replay(const std::string& id) const override { return replays_.has(id); }
   bool hides_results(const net::Caller& caller, const std::string& id) const override;
 
  private:

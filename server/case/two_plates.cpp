@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
 
@@ -16,16 +15,20 @@ constexpr std::string_view id_prefix = "two-plates-";
 constexpr double voxel_mm = 0.3;
 /// Of the hollow: a little over the 37 mm of the reamer's tip (ellipse 18.25,9), so that the tip leads it in.
 constexpr double hollow_radius_mm = 38.0;
-constexpr double plate_radius_mm = 21.0, plate_centre_mm = 23.0;
-constexpr double rim_height_mm = 5.7;  ///< over the bottom of the hollow
+constexpr double plate_radius_mm = 19.3, plate_centre_mm = plate_radius_mm;
+constexpr double rim_height_mm = 5.2;  ///< over the bottom of the hollow
+/// Beyond it a plate is wall: the reamer, of 18.25 mm, touches it only when it leaves the hollow.
+constexpr double hollow_edge_mm = 18.6;
 constexpr double base_top_mm = -9.0, bottom_mm = -12.0;
+/// Fills the corners between the plates.
+constexpr double bridge_half_width_mm = 10.0, bridge_half_height_mm = 4.0;
 /// Air all around, and a plane between two voxels in the middle, so that both plates are the same.
-const Vec3i dims(72, 152, 304);
+const Vec3i dims(72, 136, 264);
 
 constexpr uint8_t cartilage = voxel::cartilage_code;
 /// Codes are hundredths of g/cc. Within what the thesis measured: cancellous bone 0.41 to 0.72, cortical bone
 /// 1.30 to 1.61 g/cc.
-constexpr uint8_t cortical = 145, thin_cortical = 130, cancellous = 55, light = 45, dense = 65;
+constexpr uint8_t cortical = 145, thin_cortical = 130, cancellous = 55, light = 45, dense = 65, wall = light;
 
 constexpr double to_bottom_mm = 1000.0;
 
@@ -34,21 +37,29 @@ double depth_mm(const Vec3& p, double plate_z_mm) {
   return (p - Vec3(hollow_radius_mm, 0.0, plate_z_mm)).norm() - hollow_radius_mm;
 }
 
-/// From a plate's surface, mm; negative in it. Near the hollow exact, elsewhere at most the distance.
-double plate_distance_mm(const Vec3& p, double plate_z_mm) {
-  const double radial_mm =
-      std::sqrt(p.y() * p.y() + (p.z() - plate_z_mm) * (p.z() - plate_z_mm)) - plate_radius_mm;
-  return std::max({-depth_mm(p, plate_z_mm), p.x() - rim_height_mm, bottom_mm - p.x(), radial_mm});
+/// From the middle of a plate, across its axis.
+double off_centre_mm(const Vec3& p, double plate_z_mm) {
+  const double z = p.z() - plate_z_mm;
+  return std::sqrt(p.y() * p.y() + z * z);
 }
 
-/// What joins the plates below.
-double base_distance_mm(const Vec3& p) {
-  const double reach_mm = plate_centre_mm + plate_radius_mm;
-  return std::max({p.x() - base_top_mm, bottom_mm - p.x(), std::abs(p.y()) - plate_radius_mm,
-                   std::abs(p.z()) - reach_mm});
+double box_distance_mm(const Vec3& p, double top_mm, double half_width_mm, double half_height_mm) {
+  return std::max(
+      {p.x() - top_mm, bottom_mm - p.x(), std::abs(p.y()) - half_width_mm, std::abs(p.z()) - half_height_mm});
 }
 
-uint8_t code_at(const std::vector<PlateLayer>& layers, double depth) {
+/// From the surface of it all, mm; negative in bone. Near a hollow exact, elsewhere at most the distance.
+double distance_mm(const Vec3& p, double plate_z_mm) {
+  const double plate_mm =
+      std::max({p.x() - rim_height_mm, bottom_mm - p.x(), off_centre_mm(p, plate_z_mm) - plate_radius_mm});
+  const double bridge_mm = box_distance_mm(p, rim_height_mm, bridge_half_width_mm, bridge_half_height_mm);
+  const double base_mm = box_distance_mm(p, base_top_mm, plate_radius_mm, plate_centre_mm + plate_radius_mm);
+  return std::min(std::max(-depth_mm(p, plate_z_mm), std::min(plate_mm, bridge_mm)), base_mm);
+}
+
+uint8_t code_at(const Vec3& p, double plate_z_mm, const std::vector<PlateLayer>& layers) {
+  if (off_centre_mm(p, plate_z_mm) > hollow_edge_mm) return wall;
+  double depth = depth_mm(p, plate_z_mm);
   for (const PlateLayer& layer : layers) {
     if (depth < layer.thickness_mm) return layer.code;
     depth -= layer.thickness_mm;
@@ -67,9 +78,9 @@ voxel::BoneModel bone_of(const std::vector<PlateLayer>& upper, const std::vector
   for (size_t i = 0; i < grid.voxel_count(); ++i) {
     const Vec3 p = low + grid.centre_mm(grid.coordinates(i));
     const double plate_z_mm = p.z() > 0.0 ? plate_centre_mm : -plate_centre_mm;
-    const double distance_mm = std::min(plate_distance_mm(p, plate_z_mm), base_distance_mm(p));
-    bone.coverage[i] = static_cast<uint8_t>(std::clamp(127.5 - 255.0 * distance_mm / voxel_mm, 0.0, 255.0));
-    if (bone.coverage[i] > 0) density[i] = code_at(p.z() > 0.0 ? upper : lower, depth_mm(p, plate_z_mm));
+    const double level = 127.5 - 255.0 * distance_mm(p, plate_z_mm) / voxel_mm;
+    bone.coverage[i] = static_cast<uint8_t>(std::clamp(level, 0.0, 255.0));
+    if (bone.coverage[i] > 0) density[i] = code_at(p, plate_z_mm, p.z() > 0.0 ? upper : lower);
   }
   return bone;
 }
@@ -129,7 +140,7 @@ Case make_two_plates(const std::string& case_id) {
   made.bone = upper ? bone_of(comparison->asked_for, comparison->other)
                     : bone_of(comparison->other, comparison->asked_for);
   Plan plan;
-  plan.entry_mm = Vec3(0.0, 0.0, plate_centre_mm);
+  plan.entry_mm = Vec3(rim_height_mm, 0.0, 0.0);
   plan.axis_direction = -Vec3::UnitX();
   plan.depth_mm = 8.0;
   plan.reamer = "ellipse 18.25,9";
@@ -138,12 +149,16 @@ Case make_two_plates(const std::string& case_id) {
   return made;
 }
 
-Case load_or_make_two_plates(const std::filesystem::path& data_folder, const std::string& case_id) {
-  const auto folder = cases_folder(data_folder) / case_id;
-  if (std::filesystem::exists(folder / "case.json")) return load_case(folder);
-  Case made = make_two_plates(case_id);
-  save_case(made, folder, true);
-  return made;
+std::filesystem::path two_plates_folder(const std::filesystem::path& data_folder,
+                                        const std::string& case_id) {
+  return data_folder / "plates" / case_id;
+}
+
+void keep_two_plates(const std::filesystem::path& data_folder, const std::string& case_id) {
+  const auto folder = two_plates_folder(data_folder, case_id);
+  if (std::filesystem::exists(folder / "case.json")) return;
+  std::filesystem::create_directories(folder.parent_path());
+  save_case(make_two_plates(case_id), folder, true);
 }
 
 }  // namespace ream::case_

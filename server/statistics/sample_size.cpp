@@ -23,6 +23,8 @@ void check_aim(const TestAim& aim) {
 }
 
 size_t rounded_up(double size) {
+  if (!(size <= static_cast<double>(most_persons)))
+    refuse_size("so small a difference needs more than a million persons");
   // A whole number but for rounding stays one.
   return static_cast<size_t>(std::ceil(size - 1e-9));
 }

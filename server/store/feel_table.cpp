@@ -12,6 +12,14 @@ void FeelTable::add(const std::string& study, const FeelAnswerRow& answer) {
   database_.run([&](Sql& sql) {
     const long long trial = answer.trial;
     int count = 0;
+    sql << "SELECT COUNT(*) FROM studies WHERE id = :study AND state = 'open'", use(study), into(count);
+    if (count == 0)
+      throw Error(ErrorKind::conflict, "study '" + study + "' is closed; nothing more can be added to it");
+    sql << "SELECT COUNT(*) FROM study_participants WHERE study = :study AND code = :code", use(study),
+        use(answer.participant), into(count);
+    if (count == 0)
+      throw Error(ErrorKind::not_found,
+                  "no participant '" + answer.participant + "' in study '" + study + "'");
     sql << "SELECT COUNT(*) FROM study_feel_answers WHERE study = :study AND participant = :code AND trial = "
            ":trial",
         use(study), use(answer.participant), use(trial), into(count);

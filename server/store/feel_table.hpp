@@ -13,7 +13,7 @@ struct FeelAnswerRow {
   int64_t trial = 0;         ///< from 1
   std::string chosen;        ///< "upper" or "lower"
   std::string session;       ///< in which the plates were felt
-  std::string answered_utc;  ///< "2026-01-31T12:00:00Z"
+  std::string answered_utc;  ///< "2026-01-31T12:00:00.250Z"
 };
 
 /// Thread-safe; errors are those of Database.
@@ -21,7 +21,7 @@ class FeelTable {
  public:
   explicit FeelTable(Database& database) : database_(database) {}
 
-  /// Error conflict when the trial has an answer.
+  /// Error conflict when the trial has an answer or the study is closed, not_found without the participant.
   void add(const std::string& study, const FeelAnswerRow& answer);
   /// Of everybody, by participant, then trial.
   std::vector<FeelAnswerRow> answers(const std::string& study) const;

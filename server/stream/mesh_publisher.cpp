@@ -173,8 +173,8 @@ void MeshPublisher::extract(int max_surfaces) {
       const uint64_t hash = surface_hash(mesh);
       if (hash != 0) left -= whole / (level.stride * level.stride);
       if (hash == std::exchange(level.shown[block], hash)) continue;
-      ready_.push_back(std::make_shared<const EncodedBlock>(
-          encode(mesh, ++level.revision[block], tick_, level.stride, &classes_)));
+      ready_.push_back(std::make_shared<const EncodedBlock>(encode(
+          mesh, ++level.revision[block], tick_, level.stride, options_.with_classes ? &classes_ : nullptr)));
     }
 }
 

@@ -46,6 +46,7 @@ struct MeshPublisherOptions {
   int noticeable_coverage = 64;  ///< levels that a voxel must change to show at once: 1/4 voxel of surface
   int64_t max_delay_ns = 250'000'000;    ///< smaller changes show after this
   int64_t min_interval_ns = 30'000'000;  ///< between two pieces of work, so that others get their turn
+  bool with_classes = true;              ///< tells what kind of bone lies under the surface
   int max_surfaces = 24;  ///< blocks that hold any, extracted by one piece of work; coarse ones count less
 };
 

@@ -29,8 +29,10 @@ session::SessionRecord Blinding::seen(session::SessionRecord record) const {
     request.title.clear();
     record.mark.reset();
   }
-  // On plates points mean nothing, and say what they are made of.
-  if (request.phase == feel_phase) record.mark.reset();
+  if (request.phase == feel_phase) {
+    record.mark.reset();
+    if (!access::is_operator(caller_.role)) request.case_id = case_::two_plates_word;
+  }
   if (hides(request)) {
     request.trainee_id.clear();
     request.trainee = request.participant;

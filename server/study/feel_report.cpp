@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <utility>
 
 #include "statistics/distributions.hpp"
 #include "statistics/mean_tests.hpp"
+#include "statistics/proportion.hpp"
 #include "statistics/sample.hpp"
 #include "study/validity_report.hpp"
 
@@ -17,7 +18,8 @@ namespace {
 
 constexpr double chance = 0.5;
 
-/// Strelzow, Kusins, Ferreira & LeBel 2023: nine experts felt cartilage, and the change from it to bone.
+/// Strelzow, Kusins, Ferreira & LeBel 2023: nine experts told cartilage, and its change to bone, by
+/// vibration.
 std::optional<PublishedShare> published_share(const std::string& comparison) {
   constexpr const char* source = "Strelzow et al. 2023, JBJS Open Access (PMC10292736), nine surgeons";
   if (comparison == "cartilage") return PublishedShare{0.69, 0.21, source};
@@ -44,6 +46,16 @@ std::vector<Answered> answered_by(const Study& study, const std::string& code,
   return answered;
 }
 
+/// Where all persons have the same share there is no t test: of answers as if they were one person's.
+void add_exact_figures(FeelLine& line, size_t persons, size_t right) {
+  line.interval = statistics::clopper_pearson_interval(right, line.answers);
+  line.note =
+      "all persons have the same share, so that the interval is that of Clopper and Pearson over all "
+      "answers, and p that of a sign test over persons";
+  if (*line.right == chance) return;
+  line.chance_p = statistics::binomial_test(*line.right > chance ? persons : 0, persons)->p_two_sided;
+}
+
 void add_figures(FeelLine& line, const std::vector<double>& shares) {
   if (shares.size() < min_persons) {
     line.note = "persons who have answered all trials: " + std::to_string(shares.size()) + "; at least " +
@@ -51,16 +63,31 @@ void add_figures(FeelLine& line, const std::vector<double>& shares) {
     return;
   }
   const auto mean = statistics::mean_estimate(shares);
-  line.note = mean.note;
   line.right = mean->mean;
   line.sd = mean->sd;
-  if (mean->interval)
+  const double answers = static_cast<double>(line.answers);
+  const std::vector<double> guessed(shares.size(), chance);
+  if (const auto test = statistics::paired_test(guessed, shares)) {
+    line.chance_p = test->p;
     line.interval =
         statistics::Interval{std::max(0.0, mean->interval->low), std::min(1.0, mean->interval->high)};
-  const std::vector<double> guessed(shares.size(), chance);
-  if (const auto test = statistics::paired_test(guessed, shares)) line.chance_p = test->p;
-  if (mean->mean > 0.0 && mean->mean < 1.0)
-    line.d_prime = std::sqrt(2.0) * statistics::normal_quantile(mean->mean);
+  } else {
+    add_exact_figures(line, shares.size(), static_cast<size_t>(std::lround(mean->mean * answers)));
+  }
+  // Half an answer short of all or none, where the formula has no value (Macmillan & Kaplan 1985).
+  const double half = 0.5 / answers;
+  line.d_prime = std::sqrt(2.0) * statistics::normal_quantile(std::clamp(mean->mean, half, 1.0 - half));
+}
+
+/// For the comparisons of one study, as one looks at all of them (Holm 1979).
+void add_holm(std::vector<FeelLine>& lines) {
+  std::vector<double> p_values;
+  for (const FeelLine& line : lines)
+    if (line.chance_p) p_values.push_back(*line.chance_p);
+  const std::vector<double> adjusted = statistics::adjusted_by_holm(p_values);
+  size_t next = 0;
+  for (FeelLine& line : lines)
+    if (line.chance_p) line.chance_p_holm = adjusted[next++];
 }
 
 json number_or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
@@ -82,6 +109,7 @@ json line_json(const FeelLine& line) {
           {"low", bound(&statistics::Interval::low)},
           {"high", bound(&statistics::Interval::high)},
           {"chance_p", number_or_null(line.chance_p)},
+          {"chance_p_holm", number_or_null(line.chance_p_holm)},
           {"d_prime", number_or_null(line.d_prime)},
           {"note", line.note},
           {"published", std::move(published)}};
@@ -115,6 +143,7 @@ FeelReport feel_report(const Study& study, const std::vector<Participant>& parti
     add_figures(line, shares[id]);
     report.lines.push_back(std::move(line));
   }
+  add_holm(report.lines);
   return report;
 }
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -25,8 +24,9 @@ struct FeelLine {
   size_t persons = 0, answers = 0;
   std::optional<double> right;                   ///< mean over persons of the share of right answers
   std::optional<double> sd;                      ///< between persons
-  std::optional<statistics::Interval> interval;  ///< of the mean, 95 %, by t
+  std::optional<statistics::Interval> interval;  ///< of the mean, 95 %, by t; `note` says where it is not
   std::optional<double> chance_p;                ///< two-sided, of the mean against 0.5, t test over persons
+  std::optional<double> chance_p_holm;           ///< adjusted for all comparisons of the study
   std::optional<double> d_prime;                 ///< sqrt(2) z(mean) (Macmillan & Creelman 2005, ch. 7)
   std::string note;                              ///< why numbers are missing
   std::optional<PublishedShare> published;

@@ -18,12 +18,12 @@ std::string FeelService::session_of(const Study& study, const FeelTrial& trial, 
   const std::vector<session::SessionRecord> all = dependencies_->sessions(study.id);
   std::string found;
   for (const session::SessionRecord* session : sessions_of(code, all)) {
-    const std::string& id = session->request.id;
-    // Those before it were for earlier trials, which may have had the same plates.
-    if (!own.empty() && id == own.back().session) found.clear();
-    if (session->request.case_id == trial.case_id() && carried_out(*session) &&
-        (own.empty() || id != own.back().session) && touched_bone(dependencies_->metrics(id)))
-      found = id;
+    const session::SessionRequest& request = session->request;
+    // Those before the last answer were for earlier trials, which may have had the same plates.
+    const bool for_this = own.empty() || request.created_utc > own.back().answered_utc;
+    if (for_this && request.case_id == trial.case_id() && carried_out(*session) &&
+        touched_bone(dependencies_->metrics(request.id)))
+      found = request.id;
   }
   return found;
 }
@@ -54,7 +54,7 @@ FeelPlace FeelService::answer(const net::Caller& caller, const std::string& id, 
     throw Error(ErrorKind::conflict, "end the session first, then answer");
   if (before.session.empty())
     throw Error(ErrorKind::conflict, "feel the plates in a session first, then answer");
-  table_.add(id, {code, number, chosen, before.session, utc_now()});
+  table_.add(id, {code, number, chosen, before.session, utc_now_in_order()});
   return place(caller, id, code);
 }
 

@@ -137,6 +137,8 @@ StudyExport StudyService::export_all(const net::Caller& caller, const std::strin
 ValidityInput StudyService::validity_input(const net::Caller& caller, const std::string& id) const {
   const Study study = known(id);
   require_export(caller, study);
+  if (study.settings.feel)
+    throw Error(ErrorKind::conflict, "study '" + id + "' is one of feel and measures no skill; GET its feel");
   return validity_input_of(
       study, everybody(id), dependencies_->sessions(id),
       [this](const std::string& session) { return dependencies_->metrics(session); }, ratings_of(id));
@@ -229,7 +231,7 @@ void StudyService::place_in_feel(const Study& study, session::SessionRequest& wa
   if (!trial)
     throw Error(ErrorKind::conflict, "participant '" + wanted.participant +
                                          "' has answered every trial of study '" + study.id + "'");
-  if (!wanted.case_id.empty() && wanted.case_id != trial->case_id())
+  if (!wanted.case_id.empty())
     throw Error(ErrorKind::conflict, "the plates of a study of feel are chosen by the server; name no case");
   wanted.case_id = trial->case_id();
   wanted.phase = feel_phase;

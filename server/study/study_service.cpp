@@ -42,6 +42,9 @@ void StudyService::require_settings(const StudySettings& settings) const {
   if (settings.feel && (!settings.cases.empty() || settings.design || settings.rating_form))
     throw Error(ErrorKind::invalid_input,
                 "a study of feel has plates of its own; leave out cases, design and rating_form");
+  if (settings.feel && (settings.device.empty() || settings.device == "script"))
+    throw Error(ErrorKind::invalid_input,
+                "device: a study of feel needs one that a hand holds, such as browser or network");
   if (!settings.feel && settings.cases.empty())
     throw Error(ErrorKind::invalid_input, "cases: a study needs one or more");
   for (const std::string& case_id : settings.cases)
@@ -129,9 +132,11 @@ Study StudyService::reopen(const std::string& id) {
   if (!study.blinded())
     throw Error(ErrorKind::conflict,
                 "study '" + id + "' is unblinded; what is added to it now would not be blind");
-  if (study.settings.design || !ratings_.raters(id).empty())
-    throw Error(ErrorKind::conflict,
-                "study '" + id + "' has arms or raters, who could have seen since what is hidden from them");
+  if (study.settings.design || study.settings.feel || !ratings_.raters(id).empty())
+    throw Error(
+        ErrorKind::conflict,
+        "study '" + id +
+            "' has arms, raters or trials of feel, and somebody could have seen since what is hidden");
   study.open = true;
   study.closed_utc.clear();
   table_.replace(row_of(study));

@@ -126,8 +126,8 @@ void write_session_bundle(const fs::path& recording_file, const std::string& cas
     relabel(folder, *labels, made.path(), entries);
   for (const fs::path& box : black_boxes_in(folder))
     entries.push_back({box, "session/" + box.filename().string()});
-  add_files(case_path(case_name.empty() ? recording.header().case_id : case_name, data), case_files, "case",
-            entries);
+  add_files(case_folder_of(case_name.empty() ? recording.header().case_id : case_name, data), case_files,
+            "case", entries);
   store::write_zip(zip, entries, progress);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "case/two_plates.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -172,7 +173,8 @@ store::SessionRow row_of(const SessionRecord& record) {
   row.study = without_nul(request.study);
   row.participant = without_nul(request.participant);
   row.title = without_nul(request.title);
-  if (record.mark) {
+  // On plates of studies of feel points mean nothing, and say what the plates are made of.
+  if (record.mark && !case_::is_two_plates(request.case_id)) {
     row.points = record.mark->points;
     row.outcome = without_nul(record.mark->outcome);
   }

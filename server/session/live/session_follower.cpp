@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "case/two_plates.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -33,7 +34,8 @@ SessionFollower::SessionFollower(const Simulation& simulation, LoopRings& rings,
       loop_(loop),
       device_port_(device_port),
       state_(state),
-      publisher_(simulation.bone_case.bone, fanout),
+      publisher_(simulation.bone_case.bone, fanout,
+                 {.with_classes = !case_::is_two_plates(simulation.bone_case.id)}),
       batcher_(fanout),
       live_score_(simulation.native, simulation.model.world_from_plan),
       status_(state.status()) {
@@ -122,6 +124,7 @@ void SessionFollower::drain_rings(bool loop_ended) {
     recent_.remember(report);
     const record::TickReport kept = files_->add(report);
     update_sample(kept, sample_);
+    if (case_::is_two_plates(simulation_.bone_case.id)) hide_material(sample_);
     sample_.state = kept.paused ? SessionState::paused : SessionState::running;
     batcher_.add(sample_);
     note_events(report);

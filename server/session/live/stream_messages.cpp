@@ -1,5 +1,7 @@
 #include "session/live/stream_messages.hpp"
 
+#include "case/two_plates.hpp"
+
 namespace ream::session {
 namespace {
 
@@ -12,7 +14,7 @@ bool is_at_rest(const Pose& world_from_bone_rest) {
 
 stream::HelloInfo make_hello(const case_::Case& c, const case_::Plan& plan, const shell::Tool& tool) {
   stream::HelloInfo info;
-  info.case_id = c.id;
+  info.case_id = case_::is_two_plates(c.id) ? case_::two_plates_word : c.id;
   info.case_name = c.name;
   info.side = case_::to_text(c.side);
   info.grid = c.bone.grid;
@@ -43,6 +45,8 @@ void update_sample(const record::TickReport& r, stream::TelemetrySample& sample)
   sample.stalled = r.stalled;
   sample.cortical_share = static_cast<float>(r.share[static_cast<size_t>(voxel::BoneClass::cortical)]);
 }
+
+void hide_material(stream::TelemetrySample& sample) { sample.density_g_cc = sample.cortical_share = 0.0f; }
 
 void update_sample(const score::MetricsAccumulator& metrics, double depth_mm, const sim::LoopHealth& health,
                    stream::TelemetrySample& sample) {

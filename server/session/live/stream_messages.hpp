@@ -15,6 +15,8 @@ stream::HelloInfo make_hello(const case_::Case& c, const case_::Plan& plan, cons
 /// What viewers are told of one tick. Where the bone is, is left out where it has not moved.
 void update_sample(const record::TickReport& report, stream::TelemetrySample& sample);
 /// The same of a session so far; `depth_mm` as LiveScore has it.
+/// Of a bone that is to be told by hand: what it is made of stays out of the sample.
+void hide_material(stream::TelemetrySample& sample);
 void update_sample(const score::MetricsAccumulator& metrics, double depth_mm, const sim::LoopHealth& health,
                    stream::TelemetrySample& sample);
 

@@ -22,8 +22,8 @@ std::vector<EndedSession> sessions_of_trainee(const std::vector<EndedSession>& s
 /// The word by which a session's trainee is known best: user id, else code, else name; empty for nobody.
 std::string trainee_of(const nlohmann::json& session);
 
-/// Whether it says how well somebody reams: a person held the device, and bone was cut. Demos and scripted
-/// runs count for nobody.
+/// Whether it says how well somebody reams: a person held the device, and bone was cut. Demos, scripted
+/// runs and plates of studies of feel count for nobody.
 bool is_attempt(const EndedSession& session);
 
 /// Its cusum stays empty.

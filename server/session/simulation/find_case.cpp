@@ -20,7 +20,7 @@ void require_computable(const record::Recording& recording) {
 /// Those that come with the program are made where they are first asked for.
 void make_built_in(const std::string& name, const fs::path& data) {
   if (name == "demo") ct::load_or_make_demo_case(data);
-  if (case_::is_two_plates(name)) case_::load_or_make_two_plates(data_folder(data), name);
+  if (case_::is_two_plates(name)) case_::keep_two_plates(data_folder(data), name);
 }
 
 }  // namespace
@@ -46,15 +46,20 @@ case_::Case CaseCache::load(const fs::path& folder) {
   return loaded;
 }
 
+fs::path case_folder_of(const std::string& name, const fs::path& data) {
+  return case_::is_two_plates(name) ? case_::two_plates_folder(data_folder(data), name)
+                                    : case_path(name, data);
+}
+
 case_::Case find_case(const std::string& name, const fs::path& data) {
   static CaseCache cache;
-  const fs::path folder = case_path(name, data);
+  const fs::path folder = case_folder_of(name, data);
   if (!fs::exists(folder / "case.json")) make_built_in(name, data);
   return cache.load(folder);
 }
 
 case_::Anatomy find_anatomy(const case_::Case& c, const std::string& name, const fs::path& data) {
-  return case_::anatomy_of(c, case_path(name, data));
+  return case_::anatomy_of(c, case_folder_of(name, data));
 }
 
 case_::Case recorded_case(const record::Recording& recording, const std::string& case_name,

@@ -32,6 +32,9 @@ class CaseCache {
 /// case folder. Errors: those of load_case.
 case_::Case find_case(const std::string& name, const std::filesystem::path& data);
 
+/// Where the case of that name is, or would be.
+std::filesystem::path case_folder_of(const std::string& name, const std::filesystem::path& data);
+
 /// Its side, landmarks and glenoid frame as they are now. Error invalid_input for its landmarks.
 case_::Anatomy find_anatomy(const case_::Case& c, const std::string& name, const std::filesystem::path& data);
 

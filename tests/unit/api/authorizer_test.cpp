@@ -67,8 +67,9 @@ class GateTest : public test::TestDatabase<test::OnSqlite>, protected SessionFin
     }
   }
 
+  bool is_replay(const std::string& id) const override { return id == "replay23"; }
   bool hides_results(const net::Caller& caller, const std::string& id) const override {
-    return id == "felt2345" && caller.role != "operator";
+    return (id == "felt2345" || id == "replay23") && caller.role != "operator";
   }
   bool is_rated_by(const net::Caller& caller, const std::string& id) const override {
     return rated.contains({caller.user_id, id});
@@ -159,6 +160,9 @@ TEST_F(GateTest, WhatAHiddenSessionMeasuredIsForOperatorsOnly) {
   for (const char* part : {"/replay", "/exports"})
     EXPECT_EQ(refusal(asked("POST", tom), one + part), 403) << part;
   EXPECT_EQ(refusal(asked("GET", tom), one), 0);
+  net::Request replay = asked("GET", tom);
+  replay.parameters["id"] = "replay23";
+  EXPECT_EQ(refusal(replay, one + "/stream"), 403) << "a replay that an operator made";
   for (const char* part : {"/start", "/pause", "/stop"})
     EXPECT_EQ(refusal(asked("POST", tom), one + part), 0) << part;
 }

@@ -11,7 +11,7 @@
 namespace ream {
 namespace {
 
-constexpr double plate_z_mm = 23.0;
+constexpr double plate_z_mm = 19.3;
 
 /// Density codes on the way down the middle of a plate, with how much of it each fills, mm.
 std::vector<std::pair<int, double>> layers_along(const voxel::BoneModel& bone, double z_mm) {
@@ -87,7 +87,26 @@ TEST(TwoPlates, PlatesLookAlikeAndOneLikeAnotherCase) {
   EXPECT_EQ(other.name, made.name);
 }
 
-TEST(TwoPlates, ThePlanMeetsTheUpperPlateAndAirIsAllAround) {
+TEST(TwoPlates, OnlyTheHollowsTellThemApart) {
+  std::vector<case_::Case> all;
+  for (const case_::PlateComparison& comparison : case_::plate_comparisons())
+    for (const bool upper : {true, false})
+      all.push_back(case_::make_two_plates(case_::two_plates_id(comparison.id, upper)));
+  const voxel::VoxelGrid& grid = all[0].bone.grid;
+  size_t walls = 0;
+  for (size_t i = 0; i < grid.voxel_count(); ++i) {
+    if (all[0].bone.coverage[i] == 0) continue;
+    const Vec3 p = grid.world_from_grid.point(grid.centre_mm(grid.coordinates(i)));
+    const double from_upper = std::hypot(p.y(), p.z() - plate_z_mm);
+    const double from_lower = std::hypot(p.y(), p.z() + plate_z_mm);
+    if (std::min(from_upper, from_lower) < 18.7) continue;
+    ++walls;
+    for (const case_::Case& one : all) ASSERT_EQ(one.bone.density[i], 45) << p.transpose();
+  }
+  EXPECT_GT(walls, 10000u);
+}
+
+TEST(TwoPlates, ThePlanIsBetweenThemAndAirIsAllAround) {
   const case_::Case made = case_::make_two_plates(case_::two_plates_id("density", true));
   const auto met = case_::surface_along(made.bone, made.plan->entry_mm, made.plan->axis_direction);
   ASSERT_TRUE(met);

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ream::study {
 namespace {
@@ -61,15 +63,27 @@ TEST(FeelReport, WhoHasNotAnsweredAllIsLeftOutAndTooFewAreSaid) {
   EXPECT_EQ(feel_report(felt.study, felt.participants, felt.answers).participants, 3u);
 }
 
-TEST(FeelReport, PersonsWhoAreAllAlikeHaveNoP) {
+TEST(FeelReport, WhereAllAreAlwaysRightThereAreExactFigures) {
   Felt felt;
-  for (const char* code : {"A", "B", "C"}) felt.add(code, 8);
+  for (const char* code : {"A", "B", "C", "D", "E", "F"}) felt.add(code, 8);
   const FeelLine line = felt.line();
   EXPECT_DOUBLE_EQ(*line.right, 1.0);
-  EXPECT_FALSE(line.chance_p);
-  EXPECT_FALSE(line.interval);
-  EXPECT_FALSE(line.d_prime);
+  EXPECT_NEAR(*line.chance_p, 2.0 / 64.0, 1e-12) << "six of six on one side";
+  EXPECT_EQ(line.interval->high, 1.0);
+  EXPECT_NEAR(line.interval->low, std::pow(0.025, 1.0 / 48.0), 1e-9) << "of 48 answers, in closed form";
+  EXPECT_NEAR(*line.d_prime, 1.414214 * 2.311, 2e-3) << "z(1 - 1/96)";
   EXPECT_FALSE(line.note.empty());
+}
+
+TEST(FeelReport, PsAreAdjustedForAllComparisons) {
+  Felt felt;
+  felt.study.settings.feel = FeelTrials{{"cartilage", "density"}, 4};
+  for (const auto& [code, right] : {std::pair{"A", 8}, {"B", 7}, {"C", 6}}) felt.add(code, right);
+  const FeelReport report = feel_report(felt.study, felt.participants, felt.answers);
+  const double a = *report.lines[0].chance_p, b = *report.lines[1].chance_p;
+  const double least = std::min(a, b), most = std::max(a, b);
+  EXPECT_NEAR(*report.lines[a < b ? 0 : 1].chance_p_holm, std::min(1.0, 2.0 * least), 1e-12);
+  EXPECT_NEAR(*report.lines[a < b ? 1 : 0].chance_p_holm, std::min(1.0, std::max(2.0 * least, most)), 1e-12);
 }
 
 TEST(FeelReport, AnswersOfWithdrawnParticipantsAreNotThere) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/new_id.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -35,6 +36,7 @@ class FeelServiceTest : public testing::Test {
     StudyDraft draft;
     draft.name = "Feel";
     draft.settings.feel = FeelTrials{{"cartilage", "density"}, 2};
+    draft.settings.device = "browser";
     study_ = studies_.create(draft).id;
     code_ = studies_.join(surgeon, {"expert", 100, "", "", studies_.get(organiser, study_).join_code})
                 .second.code;
@@ -50,7 +52,7 @@ class FeelServiceTest : public testing::Test {
     session::SessionRecord record;
     record.request = wanted();
     record.request.id = id;
-    record.request.created_utc = "2026-03-01T08:00:0" + std::to_string(server_->ended.size()) + "Z";
+    record.request.created_utc = utc_now_in_order();
     record.status.state = state;
     server_->ended.push_back(record);
   }
@@ -123,6 +125,18 @@ TEST_F(FeelServiceTest, OthersNeitherAnswerNorLearnWhatWasRight) {
   expect_error(ErrorKind::conflict, "closed", [&] { answer(1); });
   EXPECT_FALSE(feel_.hides(surgeon, felt));
   EXPECT_EQ(feel_.report(teacher, study_).lines.size(), 2u);
+  expect_error(ErrorKind::conflict, "trials of feel", [&] { studies_.reopen(study_); });
+  expect_error(ErrorKind::conflict, "closed", [&] {
+    store::FeelTable(database_).add(study_, {code_, 1, "upper", "s1", "2026-03-01T08:00:00.000Z"});
+  });
+}
+
+TEST_F(FeelServiceTest, WhichPlatesTheyAreOnlyOperatorsSee) {
+  feel("s1");
+  for (const net::Caller& one : {surgeon, teacher})
+    EXPECT_EQ(studies_.blinding(one).seen(server_->ended[0]).request.case_id, "two-plates");
+  EXPECT_NE(studies_.blinding(organiser).seen(server_->ended[0]).request.case_id, "two-plates");
+  expect_error(ErrorKind::conflict, "no skill", [&] { studies_.validity_input(organiser, study_); });
 }
 
 TEST_F(FeelServiceTest, WithAParticipantGoTheirAnswers) {
@@ -137,6 +151,8 @@ TEST_F(FeelServiceTest, AStudyIsOfFeelOrHasCases) {
   StudyDraft draft;
   draft.name = "Both";
   draft.settings.feel = FeelTrials{{"cartilage"}, 2};
+  expect_error(ErrorKind::invalid_input, "that a hand holds", [&] { studies_.create(draft); });
+  draft.settings.device = "browser";
   draft.settings.cases = {"demo"};
   expect_error(ErrorKind::invalid_input, "plates of its own", [&] { studies_.create(draft); });
   draft.settings.feel.reset();
