@@ -56,7 +56,23 @@ async function openStudy(page: Page): Promise<void> {
   await page.getByRole('link', { name: study }).click();
 }
 
-/** From the study into theatre, reaming until bone is gone, and to the end of the session. */
+/** Until so much more bone is gone. */
+async function ream(page: Page, mm3: number): Promise<void> {
+  const before = (await readout(page)).removedMm3 ?? 0;
+  await page.keyboard.down(' ');
+  await expect
+    .poll(async () => (await readout(page)).removedMm3 ?? 0, { timeout: 120_000 })
+    .toBeGreaterThan(before + mm3);
+  await page.keyboard.up(' ');
+}
+
+async function hold(page: Page, key: string, ms: number): Promise<void> {
+  await page.keyboard.down(key);
+  await page.waitForTimeout(ms);
+  await page.keyboard.up(key);
+}
+
+/** From the study into theatre, reaming the upper plate and the lower one, and to the end of the session. */
 async function feelPlates(page: Page): Promise<void> {
   await page.getByTestId('feel-plates').click();
   await expect(page.getByTestId('trainee-page')).toHaveAttribute('data-theatre', 'true', { timeout: 60_000 });
@@ -65,9 +81,12 @@ async function feelPlates(page: Page): Promise<void> {
   });
   await page.getByTestId('bone-canvas').focus();
   await page.keyboard.press('s');
-  await page.keyboard.down(' ');
-  await expect.poll(async () => (await readout(page)).removedMm3 ?? 0, { timeout: 120_000 }).toBeGreaterThan(1);
-  await page.keyboard.up(' ');
+  // The reamer begins between the plates; an arrow moves it by 8 mm a second, up to 20 mm.
+  await hold(page, 'ArrowUp', 3_000);
+  await ream(page, 1);
+  await hold(page, 'b', 1_500);
+  await hold(page, 'ArrowDown', 6_000);
+  await ream(page, 1);
   await page.getByTestId('end-theatre').click();
   await expect(page.getByTestId('feel-session')).toBeVisible();
 }
@@ -128,7 +147,9 @@ test('a participant feels plates and answers, trial after trial; the operator re
   await operator.reload();
   await operator.getByTestId('show-feel-report').click();
   await expect(operator.getByTestId('feel-report')).toContainText('One participant has answered.');
-  await expect(operator.getByTestId('feel-line-density')).toContainText('answered all trials: 1; at least 3 are needed');
+  await expect(operator.getByTestId('feel-line-density')).toContainText(
+    'answered all trials: 1; at least 3 are needed',
+  );
   expect(await serious(operator)).toEqual([]);
   const answers = await savedBy(operator, 'feel-answers-csv');
   expect(answers.trim().split(/\r?\n/)).toHaveLength(3);

@@ -64,7 +64,7 @@ export const feelText = {
     participants: 'Participants',
     right: 'Right (95 % interval)',
     sd: 'SD',
-    p: 'p against chance',
+    p: 'p against chance (Holm)',
     dPrime: 'd′',
     published: 'Published',
     note: 'Remark',

@@ -28,7 +28,7 @@ export function feelRow(line: Line): FeelRow {
     participants: String(line.persons),
     right: rightText(line),
     sd: line.sd === null ? '' : feelText.percent(inPercent(line.sd)),
-    p: short(line.chance_p ?? undefined),
+    p: short(line.chance_p_holm ?? undefined),
     dPrime: line.d_prime === null ? '' : fixed(line.d_prime, 2),
     published: published && {
       share: feelText.published(inPercent(published.share), inPercent(published.sd)),
