@@ -12,15 +12,18 @@
 namespace ream::bench {
 namespace {
 
-constexpr double thesis_tick_us = 314.89;  ///< thesis 5.4.2, on a GTX 970
+/// Thesis 5.4.2, on a GTX 970: ticks of a user who reams, on a bone of this size.
+constexpr double thesis_tick_us = 314.89;
 constexpr double mean_goal_us = 1000.0, p50_goal_us = 300.0, p99_goal_us = 500.0;
 constexpr size_t ring_bricks = 4096;
 
-/// The whole demo, as a user sees it run: approach, reaming, a look, reaming to the plan, withdrawal.
+/// The demo's script from approach to withdrawal, ticks in air among them. Of a session it lacks the guard of
+/// energy, which has no part in contact.
 struct Scene {
   std::string name;
   const case_::Case& bone_case;
   double spacing_mm;
+  bool is_thesis_case;
 };
 
 struct Measured {
@@ -103,9 +106,9 @@ std::vector<Row> tick_rows(const case_::Case& thesis_case) {
   const ct::PhantomPreset preset = ct::phantom_preset("demo");
   case_::Case demo = ct::make_phantom_case("demo", preset.params, preset.upsample);
   demo.plan->depth_mm = 1.0;
-  const Scene scenes[] = {{"whole demo, points 0.2 mm apart", demo, 0.2},
-                          {"whole demo, points 0.1 mm apart", demo, 0.1},
-                          {"whole demo on thesis-5-4-2, points 0.1 mm apart", thesis_case, 0.1}};
+  const Scene scenes[] = {{"whole demo, points 0.2 mm apart", demo, 0.2, false},
+                          {"whole demo, points 0.1 mm apart", demo, 0.1, false},
+                          {"whole demo on thesis-5-4-2, points 0.1 mm apart", thesis_case, 0.1, true}};
   std::vector<Row> rows;
   for (const Scene& scene : scenes)
     for (const std::string backend : {"cpu", "opencl"}) {
@@ -113,7 +116,8 @@ std::vector<Row> tick_rows(const case_::Case& thesis_case) {
       const TimingSummary& t = m.health.tick_us;
       const bool judged = backend == "cpu";
       const std::string name = scene.name + ", tick, " + m.backend;
-      rows.push_back({"collide", name + ", mean", t.mean_us, thesis_tick_us, "us", mean_goal_us});
+      rows.push_back({"collide", name + ", mean", t.mean_us, scene.is_thesis_case ? thesis_tick_us : 0.0,
+                      "us", mean_goal_us});
       rows.push_back({"collide", name + ", p50", t.p50_us, 0.0, "us", judged ? p50_goal_us : 0.0});
       rows.push_back({"collide", name + ", p99", t.p99_us, 0.0, "us", judged ? p99_goal_us : 0.0});
       rows.push_back({"collide", name + ", max", t.max_us, 0.0, "us", 0.0});

@@ -8,15 +8,16 @@ static uint gather_bits_10(uint x) {
   return (x | (x >> 16)) & 0x3ff;
 }
 
-kernel void flat_contact(global const uint* codes, global uchar* voxmap, global struct FlatExchange* exchange) {
+kernel void flat_contact(global const uint* codes, global uchar* voxmap,
+                         global struct FlatExchange* exchange) {
   const uint i = get_global_id(0);
   if (i >= exchange->points) return;
   const uint code = codes[i];
   const float x = exchange->origin[0] + ((float)gather_bits_10(code) + 0.5f) * exchange->spacing;
   const float y = exchange->origin[1] + ((float)gather_bits_10(code >> 1) + 0.5f) * exchange->spacing;
   const float z = exchange->origin[2] + ((float)gather_bits_10(code >> 2) + 0.5f) * exchange->spacing;
-  if (x < exchange->voi_low[0] || y < exchange->voi_low[1] || z < exchange->voi_low[2] || x > exchange->voi_high[0] ||
-      y > exchange->voi_high[1] || z > exchange->voi_high[2])
+  if (x < exchange->voi_low[0] || y < exchange->voi_low[1] || z < exchange->voi_low[2] ||
+      x > exchange->voi_high[0] || y > exchange->voi_high[1] || z > exchange->voi_high[2])
     return;
   global const float* m = exchange->voxel_from_tool.m;
   global const float* t = exchange->voxel_from_tool.t;

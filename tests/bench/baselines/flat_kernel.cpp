@@ -156,14 +156,20 @@ FlatThreads::FlatThreads(const Voxmap& voxmap, const MortonShell& shell) : voxma
 
 FlatThreads::~FlatThreads() {
   stop_ = true;
+  ++asked_;
+  asked_.notify_one();
   thread_.join();
 }
 
 void FlatThreads::second_thread() {
   const size_t half = x_.size() / 2;
-  for (uint32_t done = 0; !stop_.load(std::memory_order_relaxed);) {
+  constexpr int max_spins = 1'000'000;  // some milliseconds
+  for (uint32_t done = 0;;) {
+    for (int i = 0; i < max_spins && asked_.load(std::memory_order_relaxed) == done; ++i) {
+    }
+    asked_.wait(done, std::memory_order_acquire);
+    if (stop_) return;
     const uint32_t asked = asked_.load(std::memory_order_acquire);
-    if (asked == done) continue;
     second_sums_ = sums_of_points(exchange_, voxmap_.gray.data(), x_.data() + half, y_.data() + half,
                                   z_.data() + half, x_.size() - half);
     done = asked;
@@ -177,6 +183,7 @@ FlatSums FlatThreads::contact(const QuantisedPose& grid_from_tool) {
   exchange_ = *found;
   const uint32_t turn = asked_.load(std::memory_order_relaxed) + 1;
   asked_.store(turn, std::memory_order_release);
+  asked_.notify_one();
   FlatSums sums =
       sums_of_points(exchange_, voxmap_.gray.data(), x_.data(), y_.data(), z_.data(), x_.size() / 2);
   while (answered_.load(std::memory_order_acquire) != turn) std::this_thread::yield();

@@ -61,10 +61,11 @@ class FlatKernel {
 };
 
 /// The same sums as a fair CPU form has them: coordinates decoded once, no branches, so that the compiler can
-/// work on many points at once, and on two threads. The second one spins between poses. Contact alone.
+/// work on many points at once, and on two threads. The second one spins between poses, and sleeps
+/// when none comes, so that it takes no processor from others. Contact alone.
 class FlatThreads {
  public:
-  /// `voxmap` must outlive it.
+  /// `voxmap` and `shell` must outlive it.
   FlatThreads(const Voxmap& voxmap, const MortonShell& shell);
   ~FlatThreads();
   FlatThreads(const FlatThreads&) = delete;
