@@ -120,6 +120,7 @@ void Handling::add(const record::TickReport& r, const Vec3& in_bone_mm, double a
   spindle_use_.add(r);
   path_.add(in_bone_mm, r.engaged, r.paused);
   economy_.add(r, in_bone_mm, axial_mm);
+  contact_spread_.add(r, in_bone_mm);
   thrust_rate_.add(r);
 }
 
@@ -139,6 +140,7 @@ void Handling::write(MetricResults& results) const {
   results.set("path_in_contact_mm", path_.in_contact_mm());
   results.set("path_out_of_contact_mm", path_.in_the_air_mm());
   economy_.write(results);
+  contact_spread_.write(results);
   const Strokes& strokes = path_.strokes();
   results.set("strokes", strokes.count());
   const char* no_stroke = "the tool made no stroke";

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "record/tick_report.hpp"
+#include "score/contact_spread.hpp"
 #include "score/metric_results.hpp"
 #include "score/path_economy.hpp"
 #include "score/spindle_use.hpp"
@@ -122,6 +123,7 @@ class Handling {
   SpindleUse spindle_use_;
   ToolPath path_;
   PathEconomy economy_;
+  ContactSpread contact_spread_;
   ThrustRate thrust_rate_;
 };
 

@@ -338,6 +338,10 @@ constexpr Metric catalogue[] = {
      handling, ticks, not_negative, only_reported, Better::less},
     {"contact_time_s", "Time in contact", "s", "Time in which the reamer touches bone.", time_and_motion,
      published, exact_sum, handling, ticks, not_negative, only_reported, Better::less},
+    {"contact_spread_mm", "Spread of contact", "mm",
+     "How far apart the places lie at which the reamer touched bone: the diagonal of the box around its "
+     "apex.",
+     "engineering judgement", judgement, exact_sum, handling, episode, not_negative, only_reported},
     {"weakened_time_s", "Time of weakened force", "s",
      "Time in which the hand felt noticeably less than was simulated.", "limits of the device", tested,
      exact_sum, handling, ticks, not_negative, only_reported},

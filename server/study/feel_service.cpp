@@ -22,7 +22,7 @@ std::string FeelService::session_of(const Study& study, const FeelTrial& trial, 
     // Those before the last answer were for earlier trials, which may have had the same plates.
     const bool for_this = own.empty() || request.created_utc > own.back().answered_utc;
     if (for_this && request.case_id == trial.case_id() && carried_out(*session) &&
-        touched_bone(dependencies_->metrics(request.id)))
+        touched_both_plates(dependencies_->metrics(request.id)))
       found = request.id;
   }
   return found;
@@ -53,7 +53,7 @@ FeelPlace FeelService::answer(const net::Caller& caller, const std::string& id, 
   if (dependencies_->has_live_session(id, code))
     throw Error(ErrorKind::conflict, "end the session first, then answer");
   if (before.session.empty())
-    throw Error(ErrorKind::conflict, "feel the plates in a session first, then answer");
+    throw Error(ErrorKind::conflict, "feel both plates in a session first, then answer");
   table_.add(id, {code, number, chosen, before.session, utc_now_in_order()});
   return place(caller, id, code);
 }

@@ -30,8 +30,8 @@ class FeelService {
   /// Of the caller, or of whom staff names.
   FeelPlace place(const net::Caller& caller, const std::string& study, const std::string& code) const;
   /// Answers trial `number`, which must be the one at place(), with "upper" or "lower"; where the participant
-  /// is then. Error conflict before its plates were touched, and while a session goes on; RequestError 403
-  /// for another's who has an account.
+  /// is then. Error conflict before both of its plates were touched, and while a session goes on;
+  /// RequestError 403 for another's who has an account.
   FeelPlace answer(const net::Caller& caller, const std::string& study, const std::string& code, int number,
                    const std::string& chosen);
 

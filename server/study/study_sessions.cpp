@@ -29,6 +29,13 @@ bool touched_bone(const nlohmann::json& metrics) {
   return contact != metrics.end() && contact->is_number() && contact->get<double>() > 0.0;
 }
 
+bool touched_both_plates(const nlohmann::json& metrics) {
+  // Within a hollow the apex comes 2 or 3 mm off its middle; to the rim of the other plate it is 20 mm.
+  constexpr double between_plates_mm = 30.0;
+  const auto spread = metrics.find("contact_spread_mm");
+  return spread != metrics.end() && spread->is_number() && spread->get<double>() >= between_plates_mm;
+}
+
 std::vector<const session::SessionRecord*> sessions_of(const std::string& code,
                                                        const std::vector<session::SessionRecord>& sessions) {
   std::vector<const session::SessionRecord*> own;

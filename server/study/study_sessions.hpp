@@ -27,6 +27,10 @@ inline bool carried_out(const session::SessionRecord& session) {
 /// was for.
 bool touched_bone(const nlohmann::json& metrics);
 
+/// Whether it touched bone in places farther apart than one plate of a study of feel is deep and wide: both
+/// plates then, which lie 38.6 mm apart. By what metrics.json says.
+bool touched_both_plates(const nlohmann::json& metrics);
+
 /// Those of one participant, oldest first.
 std::vector<const session::SessionRecord*> sessions_of(const std::string& code,
                                                        const std::vector<session::SessionRecord>& sessions);

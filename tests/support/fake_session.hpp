@@ -60,6 +60,7 @@ class FakeSession final : public session::RunningSession {
             {"removed_volume_cancellous_mm3", 2.5},
             {"reaming_depth_mm", 0.75},
             {"contact_time_s", 4.0},
+            {"contact_spread_mm", 38.0},
             {"axial_thrust_mean_n", 40.0},
             {"axial_thrust_peak_n", 61.0},
             {"weakened_time_s", 0.25},

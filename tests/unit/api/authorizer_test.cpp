@@ -167,6 +167,24 @@ TEST_F(GateTest, WhatAHiddenSessionMeasuredIsForOperatorsOnly) {
     EXPECT_EQ(refusal(asked("POST", tom), one + part), 0) << part;
 }
 
+TEST_F(GateTest, EveryRouteOfASessionIsSaidToShowResultsOrNot) {
+  add_users();
+  const std::string one = sessions + "/{id}";
+  // What neither shows nor changes what a session measured. Who adds a route adds it here or to those that
+  // the authorizer hides.
+  const std::set<std::string> harmless{"",         "/start",    "/pause",      "/stop",
+                                       "/reset",   "/resume",   "/stream",     "/device",
+                                       "/restore", "/playback", "/annotations"};
+  for (const Route& route : routes()) {
+    if (!route.pattern.starts_with(one)) continue;
+    const std::string part = route.pattern.substr(one.size());
+    net::Request asked = with_token(route.method, tom);
+    asked.parameters["id"] = "felt2345";
+    if (harmless.contains(part)) continue;
+    EXPECT_EQ(refusal(asked, route.pattern), 403) << route.method << ' ' << route.pattern;
+  }
+}
+
 TEST_F(GateTest, WhoIsNotKnownIsToldHowToBe) {
   add_users();
   const auto challenge = [&](net::Request asked) -> std::string {

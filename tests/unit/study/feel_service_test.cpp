@@ -24,7 +24,8 @@ class FeltServer final : public StudyDependencies {
   bool has_live_session(const std::string&, const std::string&) const override { return live; }
   std::vector<session::SessionRecord> sessions(const std::string&) const override { return ended; }
   json metrics(const std::string& session) const override {
-    return {{"contact_time_s", session.starts_with("air") ? 0.0 : 4.5}};
+    return {{"contact_time_s", session.starts_with("air") ? 0.0 : 4.5},
+            {"contact_spread_mm", session.starts_with("one") ? 4.0 : 38.0}};
   }
   std::vector<session::SessionRecord> ended;
   bool live = false;
@@ -84,10 +85,10 @@ TEST_F(FeelServiceTest, PlatesAreTheServersAndNothingButBoneIsShown) {
 
 TEST_F(FeelServiceTest, FirstFeelThenAnswerOnceAndInOrder) {
   EXPECT_EQ(feel_.place(surgeon, study_, code_).session, "");
-  expect_error(ErrorKind::conflict, "feel the plates", [&] { answer(1); });
-  feel("air1");
+  expect_error(ErrorKind::conflict, "feel both plates", [&] { answer(1); });
+  feel("one1");
   feel("broken", SessionState::interrupted);
-  expect_error(ErrorKind::conflict, "feel the plates", [&] { answer(1); });
+  expect_error(ErrorKind::conflict, "feel both plates", [&] { answer(1); });
   feel("s1");
   feel("s2");
   EXPECT_EQ(feel_.place(surgeon, study_, code_).session, "s2");
