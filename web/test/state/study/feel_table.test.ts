@@ -25,7 +25,16 @@ describe('row of the report of feel', () => {
   });
 
   it('leaves out what is missing, not what is nothing', () => {
-    const alone = { persons: 1, right: 0, sd: null, low: null, high: null, chance_p: null, chance_p_holm: null, d_prime: null };
+    const alone = {
+      persons: 1,
+      right: 0,
+      sd: null,
+      low: null,
+      high: null,
+      chance_p: null,
+      chance_p_holm: null,
+      d_prime: null,
+    };
     const note = 'one participant only';
     expect(feelRow({ ...line, ...alone, published: null, note })).toMatchObject({
       ...{ participants: '1', right: '0 %', sd: '', p: '', dPrime: '', published: null, note },
