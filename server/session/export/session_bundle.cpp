@@ -17,6 +17,7 @@
 #include "session/folder/session_labels.hpp"
 #include "session/simulation/recorded_session.hpp"
 #include "session/simulation/simulation.hpp"
+#include "session/simulation/find_case.hpp"
 #include "store/zip_archive.hpp"
 
 namespace ream::session {
