@@ -15,9 +15,9 @@
 #include "core/temporary_file.hpp"
 #include "isolation/reader_process.hpp"
 #include "session/folder/session_labels.hpp"
+#include "session/simulation/find_case.hpp"
 #include "session/simulation/recorded_session.hpp"
 #include "session/simulation/simulation.hpp"
-#include "session/simulation/find_case.hpp"
 #include "store/zip_archive.hpp"
 
 namespace ream::session {
