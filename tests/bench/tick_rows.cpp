@@ -7,6 +7,7 @@
 #include "bench/timed_backend.hpp"
 #include "ct/phantom/phantom_case.hpp"
 #include "device/script/script.hpp"
+#include "device/simulated/scripted_device.hpp"
 #include "sim/haptic_loop.hpp"
 
 namespace ream::bench {
