@@ -268,6 +268,7 @@ class StudyContractTest : public AccessTest {
     expect("GET", size, size + "?question=shares&first=0.5&second=0.8", 200, ines);
     expect("GET", size, size + "?question=agreement&least=0.5&expected=0.8&raters=2", 200, ines);
     expect("GET", size, size + "?question=precision&width=0.2&expected=0.8&raters=2", 200, ines);
+    expect("GET", size, size, 400, ines);
     expect("GET", size, means, 401);
     expect("GET", size, means, 403, tom);
     expect("GET", size, size + "?question=means", 422, ines);
