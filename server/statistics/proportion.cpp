@@ -16,14 +16,13 @@ void check_counts(size_t successes, size_t trials) {
                 "a share needs at least one trial, and no more successes than trials");
 }
 
-/// sqrt(2) z(share), infinite at the ends.
-double d_prime_of(double share) {
-  if (share <= 0.0) return -std::numeric_limits<double>::infinity();
-  if (share >= 1.0) return std::numeric_limits<double>::infinity();
-  return std::sqrt(2.0) * normal_quantile(share);
-}
-
 }  // namespace
+
+double d_prime_of_share(double right) {
+  if (right <= 0.0) return -std::numeric_limits<double>::infinity();
+  if (right >= 1.0) return std::numeric_limits<double>::infinity();
+  return std::sqrt(2.0) * normal_quantile(right);
+}
 
 Interval wilson_interval(size_t successes, size_t trials, double confidence) {
   const double z = normal_quantile(1.0 - tail_of(confidence));
@@ -67,8 +66,8 @@ Answer<Discriminability> two_choice_d_prime(size_t right, size_t trials, double 
   check_counts(right, trials);
   if (right == 0 || right == trials) return {std::nullopt, "with all choices right, or none, d' has no end"};
   const Interval share = clopper_pearson_interval(right, trials, confidence);
-  return {Discriminability{d_prime_of(static_cast<double>(right) / static_cast<double>(trials)),
-                           {d_prime_of(share.low), d_prime_of(share.high)}},
+  return {Discriminability{d_prime_of_share(static_cast<double>(right) / static_cast<double>(trials)),
+                           {d_prime_of_share(share.low), d_prime_of_share(share.high)}},
           ""};
 }
 

@@ -24,8 +24,11 @@ Answer<BinomialTest> binomial_test(size_t successes, size_t trials, double expec
                                    double confidence = 0.95);
 
 /// Sensitivity of somebody who chooses one of two, without bias to a side: d' = sqrt(2) z(share of right
-/// choices) (Green & Swets 1966; Macmillan & Creelman, Detection Theory, chapter 7). The interval is that of
-/// Clopper & Pearson, transformed; a bound is infinite where the share's bound is 0 or 1.
+/// choices) (Green & Swets 1966; Macmillan & Creelman, Detection Theory, chapter 7); infinite at 0 and 1.
+double d_prime_of_share(double right);
+
+/// The same by counts. The interval is that of Clopper & Pearson, transformed; a bound is infinite where the
+/// share's bound is 0 or 1.
 struct Discriminability {
   double d_prime = 0.0;
   Interval interval;

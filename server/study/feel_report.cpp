@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "statistics/distributions.hpp"
+#include "core/json.hpp"
 #include "statistics/mean_tests.hpp"
 #include "statistics/proportion.hpp"
 #include "statistics/sample.hpp"
@@ -76,7 +76,7 @@ void add_figures(FeelLine& line, const std::vector<double>& shares) {
   }
   // Half an answer short of all or none, where the formula has no value (Macmillan & Kaplan 1985).
   const double half = 0.5 / answers;
-  line.d_prime = std::sqrt(2.0) * statistics::normal_quantile(std::clamp(mean->mean, half, 1.0 - half));
+  line.d_prime = statistics::d_prime_of_share(std::clamp(mean->mean, half, 1.0 - half));
 }
 
 /// For the comparisons of one study, as one looks at all of them (Holm 1979).
@@ -90,8 +90,6 @@ void add_holm(std::vector<FeelLine>& lines) {
     if (line.chance_p) line.chance_p_holm = adjusted[next++];
 }
 
-json number_or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
-
 json line_json(const FeelLine& line) {
   const auto bound = [&](double statistics::Interval::*end) {
     return line.interval ? json((*line.interval).*end) : json(nullptr);
@@ -104,13 +102,13 @@ json line_json(const FeelLine& line) {
           {"question", line.comparison->question},
           {"persons", line.persons},
           {"answers", line.answers},
-          {"right", number_or_null(line.right)},
-          {"sd", number_or_null(line.sd)},
+          {"right", or_null(line.right)},
+          {"sd", or_null(line.sd)},
           {"low", bound(&statistics::Interval::low)},
           {"high", bound(&statistics::Interval::high)},
-          {"chance_p", number_or_null(line.chance_p)},
-          {"chance_p_holm", number_or_null(line.chance_p_holm)},
-          {"d_prime", number_or_null(line.d_prime)},
+          {"chance_p", or_null(line.chance_p)},
+          {"chance_p_holm", or_null(line.chance_p_holm)},
+          {"d_prime", or_null(line.d_prime)},
           {"note", line.note},
           {"published", std::move(published)}};
 }

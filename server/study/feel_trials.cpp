@@ -1,10 +1,10 @@
 #include "study/feel_trials.hpp"
 
 #include <set>
-#include <utility>
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "study/seeded_draws.hpp"
 
 namespace ream::study {
 using nlohmann::json;
@@ -35,12 +35,7 @@ std::vector<FeelTrial> trials_for(const FeelTrials& trials, const std::string& s
   for (const std::string& id : trials.comparisons)
     for (int i = 0; i < trials.trials_per_comparison; ++i)
       order.push_back({0, 0, case_::find_plate_comparison(id), i % 2 == 0});
-  uint64_t state = hash_text(code, hash_text(seed));
-  // Fisher and Yates' shuffle. The remainder favours no place by more than 2^-56.
-  for (size_t i = order.size(); i > 1; --i) {
-    state = mix64(state);
-    std::swap(order[i - 1], order[state % i]);
-  }
+  SeededDraws(hash_text(code, hash_text(seed))).shuffle(order);
   for (size_t i = 0; i < order.size(); ++i) {
     order[i].number = static_cast<int>(i) + 1;
     order[i].of = static_cast<int>(order.size());

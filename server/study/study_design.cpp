@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "study/seeded_draws.hpp"
 
 namespace ream::study {
 using nlohmann::json;
@@ -89,13 +90,11 @@ const StudyArm* find_arm(const StudyDesign& design, const std::string& id) {
 
 const StudyArm& arm_at(const StudyDesign& design, const std::string& seed, const std::string& stratum,
                        int64_t place) {
-  uint64_t state = hash_text(stratum, hash_text(seed));
-  const auto draw = [&](uint64_t below) { return (state = mix64(state)) % below; };
+  SeededDraws draws(hash_text(stratum, hash_text(seed)));
   for (int64_t begin = 0;;) {
-    std::vector<size_t> block(design.arms.size() * (1 + draw(max_repeats)));
+    std::vector<size_t> block(design.arms.size() * (1 + draws.below(max_repeats)));
     for (size_t i = 0; i < block.size(); ++i) block[i] = i % design.arms.size();
-    // Fisher and Yates' shuffle. The remainder favours no arm by more than 2^-59.
-    for (size_t i = block.size() - 1; i > 0; --i) std::swap(block[i], block[draw(i + 1)]);
+    draws.shuffle(block);
     const auto end = begin + static_cast<int64_t>(block.size());
     if (place < end) return design.arms[block[static_cast<size_t>(place - begin)]];
     begin = end;
