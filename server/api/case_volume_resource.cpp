@@ -57,6 +57,13 @@ net::Response get_case_mesh(const Services& services, const net::Request& reques
   return response;
 }
 
+net::Response get_surroundings(const Services& services, const net::Request& request) {
+  net::Response response =
+      net::bytes_response(200, "application/ply", net::share(services.cases.surroundings(id_of(request))));
+  response.headers.emplace_back("Cache-Control", "no-store");
+  return response;
+}
+
 }  // namespace
 
 std::vector<Route> case_volume_routes() {
@@ -64,7 +71,8 @@ std::vector<Route> case_volume_routes() {
   const std::string one = "/api/v1/cases/{id}";
   return {{"GET", one + "/volume", reamers, reads("case.ct"), get_volume},
           {"GET", one + "/volume/slices/{axis}/{index}", reamers, reads("case.ct"), get_slice},
-          {"GET", one + "/mesh", reamers, reads("case.mesh"), get_case_mesh}};
+          {"GET", one + "/mesh", reamers, reads("case.mesh"), get_case_mesh},
+          {"GET", one + "/surroundings", reamers, reads("case.mesh"), get_surroundings}};
 }
 
 }  // namespace ream::api

@@ -11,6 +11,10 @@ struct VertexColour {
   uint8_t red = 255, green = 255, blue = 255, hatch = 0;
 };
 
+/// Bone that was cut, linear RGB: three times darker than other bone, as on the page
+/// (web/src/scene/cut_bone.ts).
+inline const Vec3f cut_bone_colour{0.2542f, 0.0467f, 0.0513f};
+
 /// One mesh of a picture, world frame, lit from the camera; vertex normals are used where present.
 struct Layer {
   const TriangleMesh* mesh = nullptr;

@@ -16,7 +16,6 @@ constexpr double distance_mm = 420.0;
 constexpr double face_half_height_mm = 25.0, axis_half_height_mm = 30.0, oblique_half_height_mm = 32.0;
 constexpr double rod_radius_mm = 0.7, rod_outside_mm = 34.0, rod_inside_mm = 18.0, dash_mm = 3.0;
 const Vec3f planned_ink{0.02f, 0.02f, 0.02f}, achieved_ink{0.72f, 0.10f, 0.02f};
-const Vec3f cut_ink{0.80f, 0.42f, 0.34f};
 
 /// Directions in which pictures are taken, world, unit, square to each other.
 struct Directions {
@@ -94,7 +93,7 @@ Picture after(const ReamedBone& bone, const Directions& d) {
   for (const auto& t : bone.after.triangles)
     (bone.cut[t[0]] && bone.cut[t[1]] && bone.cut[t[2]] ? fresh : rest).triangles.push_back(t);
   std::vector<render::Layer> layers = {layer_of(rest, bone), layer_of(fresh, bone)};
-  layers[1].colour = cut_ink;
+  layers[1].colour = render::cut_bone_colour;
   Picture picture = oblique(bone, layers, d);
   picture.title = "After";
   picture.caption = fresh.triangles.empty() ? "Nothing was cut." : "What was cut is darker.";

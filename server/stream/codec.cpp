@@ -66,7 +66,7 @@ std::vector<uint8_t> SurfaceClasses::packed(std::span<const surface::BlockVertex
 }
 
 EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t tick, int stride,
-                    const SurfaceClasses* classes) {
+                    const SurfaceClasses* classes, const RemovedBone* removed) {
   EncodedBlock result;
   result.block = mesh.block;
   result.revision = revision;
@@ -87,6 +87,7 @@ EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t 
   result.vertex_count = static_cast<uint32_t>(vertices.size());
   result.index_count = static_cast<uint32_t>(indices.size());
   if (classes != nullptr) result.classes = classes->packed(vertices, mesh.block, stride);
+  if (removed != nullptr) result.removed = removed->packed(vertices, mesh.block);
   result.vertices = encoded(meshopt_encodeVertexBufferBound(vertices.size(), sizeof(BlockVertex)),
                             [&](unsigned char* to, size_t size) {
                               return meshopt_encodeVertexBuffer(to, size, vertices.data(), vertices.size(),

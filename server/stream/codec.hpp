@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "stream/removed_bone.hpp"
 #include "surface/block_mesh.hpp"
 #include "voxel/bone_model.hpp"
 
@@ -44,17 +45,19 @@ struct EncodedBlock {
   uint32_t vertex_count = 0, index_count = 0;
   std::vector<std::byte> vertices, indices;
   std::vector<uint8_t> classes;  ///< as SurfaceClasses::packed; empty where they are not known
+  std::vector<uint8_t> removed;  ///< as RemovedBone::packed; empty where nothing is gone
 
   bool empty() const { return index_count == 0; }
-  size_t bytes() const { return vertices.size() + indices.size() + classes.size(); }
+  size_t bytes() const { return vertices.size() + indices.size() + classes.size() + removed.size(); }
 };
 
 using SharedBlock = std::shared_ptr<const EncodedBlock>;
 
 /// Reorders vertices and triangles so that they pack well; the surface itself is unchanged. A mesh without
-/// triangles gives an empty block. `classes` of the bone that the surface bounds, where they are wanted.
+/// triangles gives an empty block. `classes` and `removed` of the bone that the surface bounds, where they
+/// are wanted.
 EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t tick, int stride = 1,
-                    const SurfaceClasses* classes = nullptr);
+                    const SurfaceClasses* classes = nullptr, const RemovedBone* removed = nullptr);
 
 /// The surface that was encoded. Error invalid_input for a block that is damaged.
 surface::BlockMesh decode(const EncodedBlock& block);

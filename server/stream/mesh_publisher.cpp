@@ -87,9 +87,24 @@ void MeshPublisher::Level::touch(uint32_t block) {
   if (std::exchange(is_touched[block], uint8_t{1}) == 0) to_extract.push_back(block);
 }
 
-MeshPublisher::MeshPublisher(const voxel::BoneModel& bone, Fanout& fanout, MeshPublisherOptions options)
-    : replica_(bone), classes_(bone), fanout_(fanout), options_(options), layout_(bone.grid) {
+MeshPublisher::MeshPublisher(const voxel::BoneModel& bone, Fanout& fanout, MeshPublisherOptions options,
+                             const std::vector<uint8_t>* before)
+    : replica_(bone),
+      classes_(bone),
+      removed_(replica_),
+      fanout_(fanout),
+      options_(options),
+      layout_(bone.grid) {
   for (const int stride : {1, 2, 4}) levels_.emplace_back(bone.grid, stride);
+  if (before != nullptr) keep_changed(*before);
+}
+
+void MeshPublisher::keep_changed(const std::vector<uint8_t>& before) {
+  for (size_t first = 0; first < before.size(); first += voxel::brick_voxels) {
+    const auto brick = static_cast<uint32_t>(first / voxel::brick_voxels);
+    if (std::memcmp(before.data() + first, replica_.brick(brick), voxel::brick_voxels) != 0)
+      removed_.keep(brick, before.data() + first);
+  }
 }
 
 void MeshPublisher::take(const voxel::BrickImage& image, int64_t now_ns) {
@@ -151,6 +166,7 @@ void MeshPublisher::begin_update() {
     const uint8_t* shown = replica_.brick(image.brick);
     if (std::memcmp(shown, image.coverage, voxel::brick_voxels) == 0) continue;
     const VoxelBox box = difference_box(shown, image.coverage);
+    removed_.keep(image.brick, shown);
     replica_.apply(image);
     const Vec3i origin = replica_.grid().brick_coordinates(image.brick) * voxel::brick_edge;
     for (Level& level : levels_) {
@@ -173,8 +189,9 @@ void MeshPublisher::extract(int max_surfaces) {
       const uint64_t hash = surface_hash(mesh);
       if (hash != 0) left -= whole / (level.stride * level.stride);
       if (hash == std::exchange(level.shown[block], hash)) continue;
-      ready_.push_back(std::make_shared<const EncodedBlock>(encode(
-          mesh, ++level.revision[block], tick_, level.stride, options_.with_classes ? &classes_ : nullptr)));
+      ready_.push_back(std::make_shared<const EncodedBlock>(
+          encode(mesh, ++level.revision[block], tick_, level.stride,
+                 options_.with_classes ? &classes_ : nullptr, &removed_)));
     }
 }
 

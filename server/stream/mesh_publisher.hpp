@@ -59,8 +59,10 @@ struct MeshPublisherOptions {
 /// when the first viewer asks for them. Used by one thread.
 class MeshPublisher {
  public:
-  /// `bone` as it is before the first tick; its coverage is copied here.
-  MeshPublisher(const voxel::BoneModel& bone, Fanout& fanout, MeshPublisherOptions options = {});
+  /// `bone` as it is when it begins to be followed; its coverage is copied here. `before`: its coverage, in
+  /// the same order, before the first tick, where that was not now: what is gone since then is told.
+  MeshPublisher(const voxel::BoneModel& bone, Fanout& fanout, MeshPublisherOptions options = {},
+                const std::vector<uint8_t>* before = nullptr);
 
   /// A brick as it is now, more bone than before or less.
   void take(const voxel::BrickImage& image, int64_t now_ns);
@@ -92,6 +94,7 @@ class MeshPublisher {
     void touch(uint32_t block);
   };
 
+  void keep_changed(const std::vector<uint8_t>& before);
   bool due(int64_t now_ns) const;
   bool extracting() const;
   /// The first picture of strides that a viewer has come to ask for.
@@ -103,6 +106,7 @@ class MeshPublisher {
 
   voxel::Replica replica_;
   const SurfaceClasses classes_;
+  RemovedBone removed_;
   Fanout& fanout_;
   const MeshPublisherOptions options_;
   surface::BlockLayout layout_;

@@ -89,9 +89,10 @@ Message mesh_message(std::span<const SharedBlock> blocks, bool key_complete) {
     const auto vertices = aligned_bytes(builder, block->vertices);
     const auto indices = aligned_bytes(builder, block->indices);
     const auto classes = builder.CreateVector(block->classes);
+    const auto removed = block->removed.empty() ? 0 : builder.CreateVector(block->removed);
     tables.push_back(wire::CreateMeshBlock(builder, block->block, block->revision, block->tick,
                                            block->vertex_count, block->index_count, vertices, indices,
-                                           classes));
+                                           classes, removed));
   }
   const auto list = builder.CreateVector(tables);
   return finished(builder, wire::Body::MeshDelta, wire::CreateMeshDelta(builder, list, key_complete));

@@ -11,6 +11,7 @@
 #include "core/text.hpp"
 #include "ct/build/ct_workspace.hpp"
 #include "ct/build/import.hpp"
+#include "ct/build/surroundings.hpp"
 #include "ct/hu_volume.hpp"
 #include "ct/read/read_ct.hpp"
 #include "ct/read/write_volume.hpp"
@@ -26,6 +27,7 @@ constexpr double read_share = 0.8;
 constexpr uint64_t always_taken_bytes = 32 << 20, max_packing = 16;
 constexpr size_t max_id_length = 60;
 constexpr double max_fine_voxels = 2.0e7;  // beyond, a surface is sampled every other voxel
+constexpr double max_fine_surroundings_voxels = 4.0e6;
 
 template <typename T>
 net::Bytes bytes_of(const std::vector<T>& values) {
@@ -270,6 +272,24 @@ std::string CaseService::mesh(const std::string& id) {
   const bool coarse = static_cast<double>(bone->grid.voxel_count()) > max_fine_voxels;
   const TriangleMesh mesh = surface::whole_surface(bone->grid, bone->coverage.data(), 1, coarse ? 2 : 1);
   return ply_of(mesh.transformed(bone->grid.world_from_grid), case_::frame_in_words(side_of(id)));
+}
+
+std::string CaseService::surroundings(const std::string& id) {
+  const fs::path folder = folder_of(id);
+  if (fs::exists(folder / ct::surroundings_file)) return read_text_file(folder / ct::surroundings_file);
+  if (!fs::exists(folder / "case.json"))
+    throw Error(ErrorKind::conflict, "case '" + id + "' is not built yet");
+  TriangleMesh around;
+  if (ct::has_workup(folder)) {
+    const auto bone = surface_of(id);
+    const bool coarse = static_cast<double>(bone->grid.voxel_count()) > max_fine_surroundings_voxels;
+    const TriangleMesh whole = surface::whole_surface(bone->grid, bone->coverage.data(), 1, coarse ? 2 : 1);
+    around = ct::surroundings_of(whole.transformed(bone->grid.world_from_grid),
+                                 case_::load_case_description(folder).bone.grid);
+  }
+  if (around.triangles.empty())
+    throw Error(ErrorKind::not_found, "case '" + id + "' has nothing around the bone that is reamed");
+  return ply_of(around, case_::frame_in_words(side_of(id)));
 }
 
 }  // namespace ream::workup

@@ -57,6 +57,9 @@ class CaseService {
   void write_volume(const std::string& id, const std::filesystem::path& file);
   /// The surface of the case, LPS mm, binary PLY.
   std::string mesh(const std::string& id);
+  /// What lies around the bone that is reamed, LPS mm, binary PLY, for pictures. Error not_found when there
+  /// is nothing; conflict when the case is not built yet.
+  std::string surroundings(const std::string& id);
 
  private:
   std::string unused_id(const std::string& wanted) const;

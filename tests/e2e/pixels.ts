@@ -23,6 +23,29 @@ export async function pictureOfBone(canvas: Locator): Promise<string> {
   }
 }
 
+/** Of the pixels of a picture, taken by `pictureOfBone` or `picture`, the relative luminance (WCAG 2), 0 to 1. */
+async function luminances(page: Page, base64: string): Promise<number[]> {
+  return page.evaluate(async (data) => {
+    const bytes = Uint8Array.from(atob(data), (c) => c.charCodeAt(0));
+    const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+    const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
+    if (context === null) throw new Error('no 2d canvas');
+    context.drawImage(bitmap, 0, 0);
+    const pixels = context.getImageData(0, 0, bitmap.width, bitmap.height).data;
+    const linear = (byte = 0) => (byte <= 10 ? byte / 3294.6 : ((byte / 255 + 0.055) / 1.055) ** 2.4);
+    const found: number[] = [];
+    for (let i = 0; i < pixels.length; i += 4)
+      found.push(0.2126 * linear(pixels[i]) + 0.7152 * linear(pixels[i + 1]) + 0.0722 * linear(pixels[i + 2]));
+    return found;
+  }, base64);
+}
+
+/** Pixels that have become darker with at least that contrast. */
+export async function darkened(page: Page, now: string, before: string, contrast: number): Promise<number> {
+  const [a, b] = [await luminances(page, now), await luminances(page, before)];
+  return a.filter((value, i) => ((b[i] ?? 0) + 0.05) / (value + 0.05) >= contrast).length;
+}
+
 export interface PictureFacts {
   /** Pixels in all. */
   pixels: number;

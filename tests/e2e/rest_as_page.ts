@@ -30,6 +30,13 @@ export async function ticksPass(page: Page, session: string, ticks: number): Pro
   await expect.poll(tick, { timeout: 60_000 }).toBeGreaterThanOrEqual(until);
 }
 
+/** Until the script of a session has come to its end. */
+export async function untilFinished(page: Page, session: string): Promise<void> {
+  const url = new URL(`/api/v1/sessions/${session}`, page.url()).href;
+  const state = async () => ((await (await page.request.get(url)).json()) as { state: string }).state;
+  await expect.poll(state, { timeout: 120_000 }).toBe('finished');
+}
+
 /** A session in which the scripted hand reams the demo; its id. */
 export async function startDemo(page: Page, serverUrl: string): Promise<string> {
   await untilReady(page, serverUrl);

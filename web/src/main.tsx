@@ -27,6 +27,7 @@ import { theatreHere } from './state/theatre';
 import { theme } from './state/theme';
 import { ViewSettings } from './state/view_settings';
 import { linkInAddress, takeLinkFromAddress } from './state/watch_link';
+import { Surroundings } from './state/surroundings';
 import { Watcher } from './state/watcher';
 import { Api } from './wire/api';
 import { WorkerDeviceSocket } from './wire/device_socket';
@@ -70,6 +71,7 @@ function main(root: HTMLElement): void {
   });
   effect(() => scene.setToolShown(store.reamerShown.value));
   const liveCase = new LiveCase(store, () => identity.may.value.readCases, window.location.origin);
+  new Surroundings(store, scene, () => identity.may.value.readCases, window.location.origin);
   const alarms = new Alarms(store);
   const sound = new Sound(store, async () => (await import('./sound/sound_output')).SoundOutput.open());
   const latency = measureLatency(store, practiceStore, scene);

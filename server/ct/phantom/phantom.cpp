@@ -9,6 +9,7 @@
 #include "core/units.hpp"
 #include "ct/build/bone_from_mask.hpp"
 #include "ct/phantom/phantom_shape.hpp"
+#include "surface/block_mesh.hpp"
 
 namespace ream::ct {
 namespace {
@@ -173,6 +174,27 @@ Phantom make_phantom(const PhantomParams& params) {
     volume.world_from_volume.translation_mm.x() = -(origin.x() + volume.dims.x() * volume.spacing_mm.x());
   }
   return phantom;
+}
+
+TriangleMesh scapula_surface(const PhantomParams& params, double sample_mm) {
+  check(params);
+  const PhantomParams p = with_its_thickness(params);
+  const PhantomShape shape(p);
+  const bool left = p.side == case_::Side::left;
+  voxel::VoxelGrid grid;
+  grid.spacing_mm = Vec3::Constant(sample_mm);
+  grid.dims = voxel::whole_bricks(
+      ((p.field_mm.max - p.field_mm.min) / sample_mm).array().ceil().cast<int>().matrix());
+  Vec3 origin = shape.truth().glenoid.centre_mm + p.field_mm.min;
+  if (left) origin.x() = -(origin.x() + grid.dims.x() * sample_mm);
+  grid.world_from_grid.translation_mm = origin;
+  std::vector<uint8_t> coverage(grid.voxel_count());
+  for (size_t i = 0; i < coverage.size(); ++i) {
+    const Vec3 world = grid.world_from_grid.point(grid.centre_mm(grid.coordinates(i)));
+    const double inside = inside_share(shape.scapula_mm(left ? mirrored(world) : world), sample_mm);
+    coverage[i] = static_cast<uint8_t>(255.0 * inside + 0.5);
+  }
+  return surface::whole_surface(grid, coverage.data()).transformed(grid.world_from_grid);
 }
 
 std::function<double(const Vec3&)> true_density_g_cc(const PhantomParams& params) {

@@ -7,6 +7,7 @@
 #include "case/case.hpp"
 #include "case/landmarks.hpp"
 #include "ct/hu_volume.hpp"
+#include "geometry/triangle_mesh.hpp"
 
 namespace ream::ct {
 
@@ -77,6 +78,10 @@ Phantom make_phantom(const PhantomParams& params);
 /// Apparent density at points of the world, g/cc, before voxels, noise and partial volume; 0 outside the
 /// scapula. The phantom's densities are exact but within a voxel of a border between tissues.
 std::function<double(const Vec3& world_mm)> true_density_g_cc(const PhantomParams& params);
+
+/// The scapula's surface in the whole field, LPS mm, outward normals, sampled at cubes of that size: for
+/// pictures. Errors as make_phantom.
+TriangleMesh scapula_surface(const PhantomParams& params, double sample_mm);
 
 /// ground_truth.json; angles in degrees, lengths in mm.
 nlohmann::json to_json(const GroundTruth& truth);

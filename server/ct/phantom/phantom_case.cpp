@@ -3,11 +3,14 @@
 #include "core/error.hpp"
 #include "ct/build/bone_from_mask.hpp"
 #include "ct/build/import.hpp"
+#include "ct/build/surroundings.hpp"
+#include "geometry/mesh_io.hpp"
 
 namespace ream::ct {
 namespace {
 
 constexpr double seed_depth_mm = 5.0, seed_reach_mm = 2.0;  // in the vault, under the plate
+constexpr double surroundings_sample_mm = 1.25;
 constexpr double demo_depth_mm = 1.0;  // within the subchondral plate, and what the demo script reaches
 
 /// What of the phantom grows from within the vault.
@@ -48,6 +51,14 @@ case_::Case case_of(const Phantom& phantom, const Mask& mask, const std::string&
   return result;
 }
 
+/// The demo's CT shows the glenoid and its vault; the rest of that scapula is for pictures only.
+void write_surroundings(const case_::Case& demo, const std::filesystem::path& folder) {
+  PhantomParams whole = phantom_preset("demo").params;
+  whole.field_mm = PhantomParams{}.field_mm;
+  const TriangleMesh around = surroundings_of(scapula_surface(whole, surroundings_sample_mm), demo.bone.grid);
+  write_ply(folder / surroundings_file, around, case_::frame_in_words(demo.side));
+}
+
 }  // namespace
 
 PhantomPreset phantom_preset(const std::string& name) {
@@ -79,7 +90,11 @@ case_::Case make_phantom_case(const std::string& id, const PhantomParams& params
 
 case_::Case load_or_make_demo_case(const std::filesystem::path& data_folder) {
   const auto folder = data_folder / "cases" / "demo";
-  if (std::filesystem::exists(folder / "case.json")) return case_::load_case(folder);
+  if (std::filesystem::exists(folder / "case.json")) {
+    case_::Case demo = case_::load_case(folder);
+    if (!std::filesystem::exists(folder / surroundings_file)) write_surroundings(demo, folder);
+    return demo;
+  }
   const auto [params, upsample] = phantom_preset("demo");
   Phantom phantom = make_phantom(params);
   SegmentationSettings settings;
@@ -102,6 +117,7 @@ case_::Case load_or_make_demo_case(const std::filesystem::path& data_folder) {
   demo.hu = std::move(phantom.volume.hu);
   demo.labels = std::move(segmentation.labels);
   save_imported(demo, folder, true);
+  write_surroundings(demo.made, folder);
   return demo.made;
 }
 

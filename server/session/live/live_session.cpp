@@ -102,7 +102,7 @@ LiveSession::LiveSession(const SessionContext& context, const SessionRequest& re
              from_ ? from_->recording().annotations() : std::vector<record::ops::Annotation>()),
       crash_watch_(*simulation_.device),
       follower_(simulation_, rings_, loop_, device_port_.get(), *fanout_, state_,
-                metrics_so_far(simulation_, from_.get())) {
+                metrics_so_far(simulation_, from_.get()), from_ ? &from_->start_coverage() : nullptr) {
   simulation_.state.brick_sender = &rings_.sender;
   if (!crash_watch_.is_watched())
     log::warn("session " + request_.id +

@@ -37,6 +37,8 @@ class ResumePoint {
   uint32_t ticks() const { return recording_.tick_count(); }
   const record::Recording& recording() const { return recording_; }
   const record::RecordedBone& bone() const { return bone_; }
+  /// Of the bone before the session's first tick.
+  const std::vector<uint8_t>& start_coverage() const { return start_coverage_; }
   const score::MetricsAccumulator& metrics() const { return metrics_; }
   FileLock take_lock() { return std::move(lock_); }
 

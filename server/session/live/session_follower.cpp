@@ -27,7 +27,8 @@ SessionState end_state(sim::LoopEnd end) {
 
 SessionFollower::SessionFollower(const Simulation& simulation, LoopRings& rings, sim::HapticLoop& loop,
                                  device::DevicePort* device_port, stream::Fanout& fanout, LiveState& state,
-                                 const score::MetricsAccumulator& metrics)
+                                 const score::MetricsAccumulator& metrics,
+                                 const std::vector<uint8_t>* start_coverage)
     : id_(state.labels().id),
       simulation_(simulation),
       rings_(rings),
@@ -35,7 +36,7 @@ SessionFollower::SessionFollower(const Simulation& simulation, LoopRings& rings,
       device_port_(device_port),
       state_(state),
       publisher_(simulation.bone_case.bone, fanout,
-                 {.with_classes = !case_::is_two_plates(simulation.bone_case.id)}),
+                 {.with_classes = !case_::is_two_plates(simulation.bone_case.id)}, start_coverage),
       batcher_(fanout),
       live_score_(simulation.native, simulation.model.world_from_plan),
       status_(state.status()) {

@@ -23,10 +23,11 @@ namespace ream::session {
 class SessionFollower {
  public:
   /// All of it outlives the follower. `device_port`: null where the device does not connect over the network.
-  /// `metrics`: of what a resumed session has done before.
+  /// `metrics`: of what a resumed session has done before. `start_coverage`: of the bone before a resumed
+  /// session's first tick, else null; not needed afterwards.
   SessionFollower(const Simulation& simulation, LoopRings& rings, sim::HapticLoop& loop,
                   device::DevicePort* device_port, stream::Fanout& fanout, LiveState& state,
-                  const score::MetricsAccumulator& metrics);
+                  const score::MetricsAccumulator& metrics, const std::vector<uint8_t>* start_coverage);
   /// Ends the thread; the session has been stopped before.
   ~SessionFollower();
   SessionFollower(const SessionFollower&) = delete;

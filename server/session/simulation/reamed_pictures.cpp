@@ -49,7 +49,7 @@ void draw_picture(const case_::Case& bone_case, const TriangleMesh& surface,
   std::vector<render::Layer> layers(2);
   layers[0].mesh = &parts.native;
   layers[1].mesh = &parts.fresh;
-  layers[1].colour = Vec3f(0.80f, 0.42f, 0.34f);
+  layers[1].colour = render::cut_bone_colour;
   for (auto& layer : layers) layer.world_from_mesh = bone_case.bone.grid.world_from_grid;
   const Vec3 superior = bone_case.glenoid ? bone_case.glenoid->superior : Vec3::UnitZ();
   const render::Camera camera = glenoid_camera(plan_of(bone_case), superior, camera_distance_mm);

@@ -33,7 +33,7 @@ const Rooms& drawn_arrows() {
       {"openigtlink", {"stream"}},
       {"score", {"record", "surface", "render", "statistics"}},
       {"report", {"score"}},
-      {"ct", {"case", "isolation"}},
+      {"ct", {"case", "isolation", "surface"}},
       {"fe", {"case"}},
       {"case", {"voxel", "shell", "force"}},
       {"shell", {"voxel", "voxelizer"}},

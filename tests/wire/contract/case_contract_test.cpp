@@ -131,6 +131,8 @@ class CaseContractTest : public ContractTest {
     expect_get(one_case + slices, made + "/volume/slices/w/3?of=colours", 422);
     expect_get(one_case + "/mesh", made + "/mesh", 409);
     expect_post(one_case + "/plan/proposal", made + "/plan/proposal", 409, "{}");
+    expect_get(one_case + "/surroundings", made + "/surroundings", 409);
+    expect_get(one_case + "/surroundings", cases + "/planned/surroundings", 404);
     expect_get(one_case + "/mesh", cases + "/nowhere/mesh", 404);
     expect_get(one_case + "/mesh", cases + "/planned/mesh", 200);
     refused_bodies("POST", pattern, made + "/segmentation", "{}", R"({"threshold": 3})");
@@ -220,8 +222,10 @@ class CaseContractTest : public ContractTest {
     ASSERT_EQ(job.at("state"), "done") << job;
     expect_get(one_case, made, 200);
     expect_get(one_case + "/mesh", made + "/mesh", 200);
-    EXPECT_NE(get(made + "/mesh").body.find("\ncomment millimetres, LPS, right shoulder\n"),
-              std::string::npos);
+    expect_get(one_case + "/surroundings", made + "/surroundings", 200);
+    for (const char* surface : {"/mesh", "/surroundings"})
+      EXPECT_NE(get(made + surface).body.find("\ncomment millimetres, LPS, right shoulder\n"),
+                std::string::npos);
   }
 
   void deleting(const std::string& made) {

@@ -1,5 +1,7 @@
 import { DoubleSide, FrontSide, MeshStandardMaterial, type Plane } from 'three';
 
+import { wholeBoneColour } from './cut_bone';
+
 /**
  * Where bone is cut away one looks at the inside of its surface: painted flat and hatched over the screen, as a drawing
  * shows a section, so that it is told from what the reamer has cut, also without colours.
@@ -17,7 +19,7 @@ if (!gl_FrontFacing) {
 
 /** The bone's surface from outside, ivory; from inside a section. */
 export function boneMaterial(): MeshStandardMaterial {
-  const material = new MeshStandardMaterial({ color: 0xf2e8d5, roughness: 0.72, metalness: 0 });
+  const material = new MeshStandardMaterial({ color: wholeBoneColour, roughness: 0.72, metalness: 0 });
   material.onBeforeCompile = (shader) => {
     shader.fragmentShader = shader.fragmentShader.replace('#include <dithering_fragment>', paintInside);
   };

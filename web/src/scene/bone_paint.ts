@@ -2,22 +2,30 @@ import { Color, Matrix4, type MeshStandardMaterial, Quaternion, Vector3 } from '
 
 import type { Pose, ToolMesh } from '../wire/messages';
 import { boneMaterial } from './bone_material';
+import {
+  cutBoneColours,
+  cutInFragment,
+  cutInVertex,
+  cutVertexAssignment,
+  paintCut,
+  wetCut,
+  wholeBoneColour,
+} from './cut_bone';
 import { faceHeights } from './face_heights';
 
 /** What the kinds of bone are painted with, apart for every kind of colour vision; CSS colours. */
-export const kindColours = { cortical: '#f2e8d5', cancellous: '#d9822b', cartilage: '#5aa2d6' };
+export const kindColours = { cortical: wholeBoneColour, cancellous: '#d9822b', cartilage: '#5aa2d6' };
 /** Where the reamer touches; hatched as well. */
 export const contactColour = '#5b2a86';
 /** Closer than this to the reamer's face counts as touched, mm: a voxel of a usual case. */
 const touchesWithinMm = 0.35;
 const heightCount = 33;
 
-/** Defined while the bone is painted: a plain one costs no more than a plain material. */
+/** Defined while the bone is painted by its kinds: a plain one costs no more than it must. */
 const painted = 'BONE_PAINTED';
 
-const inVertex = `
+const inVertex = `${cutInVertex}
 #ifdef ${painted}
-attribute float boneKind;
 uniform mat4 toolFromWorld;
 varying vec3 vKinds;
 varying vec3 vInTool;
@@ -25,12 +33,14 @@ varying vec3 vInTool;
 `;
 const vertexAssignment = `
 #include <project_vertex>
+${cutVertexAssignment}
 #ifdef ${painted}
+float boneKind = boneKindOf(boneMarks);
 vKinds = vec3(boneKind == 0.0, boneKind == 1.0, boneKind == 2.0);
 vInTool = (toolFromWorld * modelMatrix * vec4(transformed, 1.0)).xyz;
 #endif
 `;
-const inFragment = `
+const inFragment = `${cutInFragment}
 #ifdef ${painted}
 uniform bool contactShown;
 uniform vec3 kindColour[3];
@@ -52,7 +62,9 @@ bool touchesReamer() {
 `;
 const paintKinds = `
 #include <color_fragment>
+${paintCut}
 #ifdef ${painted}
+cutShare = 0.0;
 float known = vKinds.x + vKinds.y + vKinds.z;
 if (known > 0.01) {
   vec3 kind = (kindColour[0] * vKinds.x + kindColour[1] * vKinds.y + kindColour[2] * vKinds.z) / known;
@@ -63,9 +75,13 @@ if (touchesReamer()) {
   diffuseColor.rgb = mix(diffuseColor.rgb, touchedColour, line < 0.5 ? 0.85 : 0.45);
 }
 #endif
+diffuseColor.rgb = mix(diffuseColor.rgb, cutBone, cutShare);
 `;
 
-/** Paints the streamed bone by its kinds, and where the reamer touches it, while that is wanted. */
+/**
+ * Paints what of the streamed bone was cut; or, while that is wanted, the bone by its kinds and where the reamer touches
+ * it.
+ */
 export class BonePaint {
   readonly material: MeshStandardMaterial;
   private readonly toolFromWorld = { value: new Matrix4() };
@@ -88,9 +104,14 @@ export class BonePaint {
         faceHeightMm: this.faceHeightMm,
         kindColour: { value: [cancellous, cortical, cartilage].map((colour) => new Color(colour)) },
         touchedColour: { value: new Color(contactColour) },
+        cutColour: { value: [cutBoneColours.cancellous, cutBoneColours.compact].map((colour) => new Color(colour)) },
       });
       shader.vertexShader = inVertex + shader.vertexShader.replace('#include <project_vertex>', vertexAssignment);
-      shader.fragmentShader = inFragment + shader.fragmentShader.replace('#include <color_fragment>', paintKinds);
+      shader.fragmentShader =
+        inFragment +
+        shader.fragmentShader
+          .replace('#include <color_fragment>', paintKinds)
+          .replace('#include <roughnessmap_fragment>', `#include <roughnessmap_fragment>${wetCut}`);
       paintInside(shader, renderer);
     };
     this.material.customProgramCacheKey = () => 'bone by its kinds';
@@ -136,6 +157,3 @@ export class BonePaint {
     this.contactShown.value = this.wanted && this.posed && this.touching;
   }
 }
-
-/** Name of the attribute by which a surface's corners say what kind of bone they are: 0, 1, 2, or -1 unknown. */
-export const kindAttribute = 'boneKind';

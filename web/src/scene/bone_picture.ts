@@ -12,7 +12,7 @@ import {
 
 import type { BlockSurface, Hello } from '../wire/messages';
 import { BlockLayout } from './block_layout';
-import { kindAttribute } from './bone_paint';
+import { marksAttribute } from './cut_bone';
 import { RegionMesh } from './region_mesh';
 
 /** What did not change for so long has come to rest. */
@@ -134,7 +134,7 @@ export class BonePicture {
     const normals = new InterleavedBuffer(surface.normals, 4);
     geometry.setAttribute('position', new InterleavedBufferAttribute(positions, 3, 0));
     geometry.setAttribute('normal', new InterleavedBufferAttribute(normals, 3, 0, true));
-    geometry.setAttribute(kindAttribute, new InterleavedBufferAttribute(normals, 1, 3));
+    geometry.setAttribute(marksAttribute, new InterleavedBufferAttribute(normals, 1, 3));
     geometry.setIndex(new BufferAttribute(surface.indices, 1));
     geometry.boundingSphere = this.layout.blockBall();
     return geometry;

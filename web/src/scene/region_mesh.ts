@@ -9,7 +9,7 @@ import {
 
 import type { BlockSurface } from '../wire/messages';
 import type { BlockLayout } from './block_layout';
-import { kindAttribute } from './bone_paint';
+import { marksAttribute } from './cut_bone';
 import { type GeometryPart, haveParts } from './line_hits';
 
 /** Values of a vertex in a block's buffers. */
@@ -48,7 +48,7 @@ export class RegionMesh {
     geometry.setAttribute('position', new BufferAttribute(positions, 3));
     const directions = new InterleavedBuffer(normals, stride);
     geometry.setAttribute('normal', new InterleavedBufferAttribute(directions, 3, 0, true));
-    geometry.setAttribute(kindAttribute, new InterleavedBufferAttribute(directions, 1, 3));
+    geometry.setAttribute(marksAttribute, new InterleavedBufferAttribute(directions, 1, 3));
     geometry.setIndex(new BufferAttribute(indices, 1));
     geometry.boundingSphere = layout.regionBall();
     haveParts(geometry, this.parts);

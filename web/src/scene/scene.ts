@@ -16,6 +16,7 @@ import { type Beside, PlanFrame, type Ray } from '../practice/plan_frame';
 import type { SteeredView } from '../practice/pointer_hand';
 import { plainView, type ViewChoices } from '../state/view_settings';
 import type { Hello, MeshDelta, Pose, ToolMesh } from '../wire/messages';
+import type { Surface } from '../wire/ply';
 import { AimView } from './aim_view';
 import { BoneView, type BoneReplacement } from './bone_view';
 import { OrbitCamera, type ViewName } from './orbit_camera';
@@ -27,6 +28,7 @@ import { OperatingLights } from './lights';
 import type { Eye } from './shared_eye';
 import { drawsInSoftware } from './software_drawing';
 import { SurgeonCamera } from './surgeon_camera';
+import { SurroundingsView } from './surroundings_view';
 import { ToolView } from './tool_view';
 
 /** Beyond this the eye gains little and a tablet loses much. */
@@ -45,6 +47,7 @@ export class BoneScene implements SteeredView {
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly bone = new BoneView(() => this.invalidate());
+  private readonly surroundings = new SurroundingsView();
   private readonly tool = new ToolView();
   private readonly aim = new AimView();
   private readonly lights: OperatingLights;
@@ -83,6 +86,7 @@ export class BoneScene implements SteeredView {
       () => this.draw(),
       () => this.resize(),
     );
+    this.extras.add(this.surroundings.group);
     this.scene.add(this.bone.group, this.tool.group, this.aim.group, this.extras, this.headset.room);
     // After the renderer's own listeners, which make what is drawn with anew.
     this.lost = watchContext(this.canvas, () => this.resize()).lost;
@@ -110,8 +114,15 @@ export class BoneScene implements SteeredView {
   dispose(): void {
     this.headset.dispose();
     this.bone.dispose();
+    this.surroundings.dispose();
     this.renderer.dispose();
     this.renderer.forceContextLoss();
+  }
+
+  /** What lies around the bone, frame of the bone at rest; null: nothing. */
+  showSurroundings(surface: Surface | null): void {
+    this.surroundings.show(surface);
+    this.invalidate();
   }
 
   /** Something else in the bone's place; null: the bone again. */
@@ -251,6 +262,7 @@ export class BoneScene implements SteeredView {
     const seenThrough = this.choices.seeThrough && this.choices.opacity < 1;
     const cuts = this.cuts(camera);
     this.bone.setLook(seenThrough ? this.choices.opacity : 1, cuts);
+    this.surroundings.cut(cuts);
     this.tool.setLook(this.opaqueTool ? 'steel' : seenThrough ? 'throughBone' : 'glass');
     if (seenThrough) this.drawSeenThrough(cuts, camera);
     else this.renderer.render(this.scene, camera);

@@ -1,11 +1,11 @@
 import { MeshoptDecoder } from 'meshoptimizer/decoder';
 
+import { putBoneMarks } from './bone_marks';
 import type { MeshBlock } from './generated/ream/wire/mesh-block';
 import type { BlockSurface, Triple } from './messages';
 import { stretchedNormals } from './octahedral';
 
 const vertexBytes = 8;
-const unknownClass = -1;
 
 /** Resolves once the mesh decoder may be used. */
 export const meshDecoderReady: Promise<void> = MeshoptDecoder.ready;
@@ -31,7 +31,7 @@ export function decodeBlock(block: MeshBlock, voxelSpacingMm: Triple): BlockSurf
     }
   }
   const normals = stretchedNormals(vertices, vertexCount, voxelSpacingMm);
-  putClasses(normals, vertexCount, block.classesArray());
+  putBoneMarks(normals, vertexCount, block.classesArray(), block.removedArray());
   return {
     block: block.block(),
     revision: block.revision(),
@@ -40,11 +40,4 @@ export function decodeBlock(block: MeshBlock, voxelSpacingMm: Triple): BlockSurf
     normals,
     indices,
   };
-}
-
-/** Unpacks 2 bits a vertex into the fourth of each normal's numbers. */
-function putClasses(normals: Int16Array, vertexCount: number, packed: Uint8Array | null): void {
-  const hasClasses = packed !== null && packed.length >= Math.ceil(vertexCount / 4);
-  for (let i = 0; i < vertexCount; ++i)
-    normals[4 * i + 3] = hasClasses ? ((packed[i >> 2] ?? 0) >> (2 * (i & 3))) & 3 : unknownClass;
 }

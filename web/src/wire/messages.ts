@@ -53,8 +53,8 @@ export interface BlockSurface {
   /** Four per vertex: x, y, z in 1/1024 voxel from the block's origin minus one voxel, then padding. */
   positions: Uint16Array<ArrayBuffer>;
   /**
-   * Four per vertex: a direction in signed 1/32767, voxel frame, see stretchedNormals; then the class of the bone under
-   * it: 0 cancellous, 1 cortical, 2 cartilage, -1 where the server does not send it.
+   * Four per vertex: a direction in signed 1/32767, voxel frame, see stretchedNormals; then what is known of the bone
+   * there, see bone_marks.
    */
   normals: Int16Array<ArrayBuffer>;
   /** Triangles, counter-clockwise from outside. */

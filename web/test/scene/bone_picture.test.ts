@@ -7,12 +7,12 @@ import { blockCount, fullSurface, pictured, placeOf, randomNumbers, randomSurfac
 
 const settledMs = 10_000;
 
-/** Of each corner its place in the grid, mm, its direction and its kind of bone. */
-type Corner = readonly [place: Vector3, direction: string, kind: number];
+/** Of each corner its place in the grid, mm, its direction and its marks. */
+type Corner = readonly [place: Vector3, direction: string, marks: number];
 const triangleOf = (corners: readonly Corner[]) =>
   corners
-    .map(([place, direction, kind]) =>
-      [...place.toArray().map((x) => x.toFixed(4)), direction, kind.toFixed(0)].join(','),
+    .map(([place, direction, marks]) =>
+      [...place.toArray().map((x) => x.toFixed(4)), direction, marks.toFixed(0)].join(','),
     )
     .join(' ');
 
@@ -21,9 +21,9 @@ function drawn(picture: BonePicture): string[] {
   picture.group.traverse((part) => {
     if (!(part instanceof Mesh)) return;
     const mesh = part as Mesh;
-    const { position, normal, boneKind } = mesh.geometry.attributes;
+    const { position, normal, boneMarks } = mesh.geometry.attributes;
     const { index } = mesh.geometry;
-    if (!position || !normal || !boneKind || index === null) throw new Error('a mesh without corners');
+    if (!position || !normal || !boneMarks || index === null) throw new Error('a mesh without corners');
     const corner = (at: number): Corner => [
       new Vector3().fromBufferAttribute(position, at).applyMatrix4(mesh.matrix),
       new Vector3()
@@ -31,7 +31,7 @@ function drawn(picture: BonePicture): string[] {
         .toArray()
         .map((x) => x.toFixed(6))
         .join(','),
-      boneKind.getX(at),
+      boneMarks.getX(at),
     ];
     for (let i = 0; i < index.count; i += 3) {
       const corners = [index.getX(i), index.getX(i + 1), index.getX(i + 2)];

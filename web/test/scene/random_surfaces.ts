@@ -33,7 +33,7 @@ export function randomSurface(random: () => number, block: number, revision: num
     revision,
     tick: 0,
     positions: Uint16Array.from({ length: 4 * corners }, (_, i) => (i % 4 === 3 ? 0 : among(34 * 1024))),
-    normals: Int16Array.from({ length: 4 * corners }, (_, i) => (i % 4 === 3 ? among(4) - 1 : among(65535) - 32767)),
+    normals: Int16Array.from({ length: 4 * corners }, (_, i) => (i % 4 === 3 ? among(64) : among(65535) - 32767)),
     indices: Uint16Array.from({ length: corners }, (_, i) => i),
   };
 }

@@ -57,7 +57,8 @@ describe('StreamDecoder', () => {
       [1024, 2048, 34816],
       [1536, 1536, 512],
     ]);
-    expect([0, 1, 2, 3, 4].map((v) => full?.normals[4 * v + 3])).toEqual([0, 1, 2, 1, 2]);
+    // Kinds 0 1 2 1 2; gone 0 15 3 0 8.
+    expect([0, 1, 2, 3, 4].map((v) => full?.normals[4 * v + 3])).toEqual([1, 62, 15, 2, 35]);
     expect(full?.indices).toBeInstanceOf(Uint16Array);
     expect(cyclicTriangles(full?.indices ?? [])).toEqual([
       [0, 1, 2],
@@ -68,9 +69,9 @@ describe('StreamDecoder', () => {
     expect(empty?.indices.length).toBe(0);
   });
 
-  it('reads blocks of a server that does not tell what kind of bone there is', () => {
+  it('reads blocks of a server that tells neither what kind of bone there is nor what is gone', () => {
     const { mesh } = decoded('mesh_without_classes', 'mesh');
-    expect([0, 1, 2, 3, 4].map((v) => mesh.blocks[0]?.normals[4 * v + 3])).toEqual([-1, -1, -1, -1, -1]);
+    expect([0, 1, 2, 3, 4].map((v) => mesh.blocks[0]?.normals[4 * v + 3])).toEqual([0, 0, 0, 0, 0]);
   });
 
   it('reads telemetry, with the newest of each series', () => {

@@ -3,6 +3,7 @@ import { signal } from '@preact/signals';
 import { SharedCamera } from '../../scene/shared_camera';
 import { ReviewView } from '../../scene/review_view';
 import { LiveCase } from '../../state/live_case';
+import { Surroundings } from '../../state/surroundings';
 import type { Permissions } from '../../state/permissions';
 import { ReviewSession } from '../../state/review/review_session';
 import { ReviewSettings } from '../../state/review/review_settings';
@@ -66,8 +67,11 @@ export class ReviewWorkspace {
     const session = new ReviewSession(id, sources, view.scene);
     view.follow(session, () => this.panes.value[0]?.view === view);
     session.start();
-    const liveCase = new LiveCase(session.store, () => this.may.readCases, this.origin);
+    const mayRead = () => this.may.readCases;
+    const liveCase = new LiveCase(session.store, mayRead, this.origin);
+    const surroundings = new Surroundings(session.store, view.scene, mayRead, this.origin);
     const close = () => {
+      surroundings.dispose();
       session.dispose();
       view.dispose();
       socket.dispose();

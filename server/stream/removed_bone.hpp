@@ -1,0 +1,41 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "surface/block_mesh.hpp"
+#include "voxel/bricks.hpp"
+
+namespace ream::stream {
+
+/// Tells how much bone is gone at places of a surface, so that viewers can paint what was cut: how far they
+/// lie under the surface that was there before the first tick, where bone is gone. Keeps memory for bricks
+/// that have changed only. Used by one thread.
+class RemovedBone {
+ public:
+  static constexpr int max_level = 15;  ///< of packed(): half a voxel under the first surface or more
+
+  /// `now` outlives this.
+  explicit RemovedBone(const voxel::Replica& now);
+
+  /// A brick as it was before its first change, brick_voxels bytes; of a brick that is known nothing changes.
+  void keep(uint32_t brick, const uint8_t* before);
+
+  /// As MeshBlock.removed of proto/stream.fbs, of vertices of `block` (as surface::BlockLayout numbers them):
+  /// 4 bits each, the first in the lowest; empty where nothing is gone.
+  std::vector<uint8_t> packed(std::span<const surface::BlockVertex> vertices, uint32_t block) const;
+
+ private:
+  struct Sample {
+    int before = 0, now = 0;  ///< coverage
+  };
+  unsigned level_at(const surface::BlockVertex& vertex, const Vec3i& block_origin) const;
+  Sample sample_at(const Vec3i& voxel) const;
+
+  const voxel::Replica& now_;
+  surface::BlockLayout layout_;
+  std::vector<uint32_t> place_;  ///< per brick: one more than its place in before_, 0 where it is not kept
+  std::vector<uint8_t> before_;
+};
+
+}  // namespace ream::stream

@@ -1,0 +1,83 @@
+#include "ct/build/surroundings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "ct/phantom/phantom_case.hpp"
+#include "geometry/mesh_io.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace ream::ct {
+namespace {
+
+/// A strip of four triangles along x, from 0 to 4.
+TriangleMesh strip() {
+  TriangleMesh mesh;
+  for (int x = 0; x <= 4; ++x)
+    for (int y = 0; y <= 1; ++y) {
+      mesh.vertices_mm.emplace_back(static_cast<float>(x), static_cast<float>(y), 0.5f);
+      mesh.normals.emplace_back(0.0f, 0.0f, 1.0f);
+    }
+  for (uint32_t x = 0; x < 4; ++x) mesh.triangles.push_back({2 * x, 2 * x + 2, 2 * x + 1});
+  return mesh;
+}
+
+TEST(Surroundings, AreWhatDoesNotLieInTheGridsBoxAndNoLooseCorners) {
+  voxel::VoxelGrid grid;
+  grid.dims = {8, 8, 8};
+  grid.spacing_mm = Vec3::Constant(0.25);
+  grid.world_from_grid.translation_mm = {1.5, -0.5, -0.5};
+  const TriangleMesh around = surroundings_of(strip(), grid);
+  // In the box are the corners at x = 2 and 3: of the four triangles one lies in it.
+  EXPECT_EQ(around.triangles.size(), 3u);
+  EXPECT_EQ(around.vertices_mm.size(), 8u);
+  EXPECT_EQ(around.normals.size(), around.vertices_mm.size());
+  for (const auto& triangle : around.triangles)
+    for (const uint32_t corner : triangle) ASSERT_LT(corner, around.vertices_mm.size());
+  grid.world_from_grid.translation_mm = {-100, 0, 0};
+  EXPECT_EQ(surroundings_of(strip(), grid).triangles.size(), 4u);
+}
+
+/// The rest of the demo's scapula goes on where the bone that is reamed ends, and is nowhere in its box.
+TEST(Surroundings, OfTheDemoAreTheRestOfItsScapula) {
+  const test::TemporaryFolder data;
+  const case_::Case demo = load_or_make_demo_case(data.path());
+  const auto file = data.path() / "cases" / "demo" / surroundings_file;
+  const TriangleMesh around = load_mesh(file);
+  EXPECT_GT(around.triangles.size(), 5000u);
+  const Aabb grid = demo.bone.grid.bounds_mm();
+  const Pose grid_from_world = demo.bone.grid.world_from_grid.inverse();
+  double nearest_mm = 1e9;
+  for (const auto& triangle : around.triangles) {
+    Vec3 centre = Vec3::Zero();
+    for (const uint32_t corner : triangle)
+      centre += grid_from_world.point(around.vertices_mm[corner].cast<double>()) / 3.0;
+    const Vec3 beyond = (grid.min - centre).cwiseMax(centre - grid.max).cwiseMax(0.0);
+    nearest_mm = std::min(nearest_mm, beyond.norm());
+    ASSERT_FALSE(grid.grown(-1.25).contains(centre)) << centre.transpose();
+  }
+  EXPECT_LT(nearest_mm, 1.25);
+  // The blade's lower tip is there: the scapula is over ten centimetres high.
+  const Vec3 size = around.bounds().max - around.bounds().min;
+  EXPECT_GT(size.z(), 120.0);
+  EXPECT_GT(size.x(), 100.0);
+
+  // A data folder of before gets them, too.
+  std::filesystem::remove(file);
+  load_or_make_demo_case(data.path());
+  EXPECT_TRUE(std::filesystem::exists(file));
+}
+
+TEST(Surroundings, OfALeftShoulderAreTheMirrorImage) {
+  PhantomParams right, left;
+  left.side = case_::Side::left;
+  const Aabb a = scapula_surface(right, 2.5).bounds(), b = scapula_surface(left, 2.5).bounds();
+  EXPECT_NEAR(a.min.x(), -b.max.x(), 0.01);
+  EXPECT_NEAR(a.max.x(), -b.min.x(), 0.01);
+  EXPECT_NEAR(a.min.y(), b.min.y(), 0.01);
+  EXPECT_GT(scapula_surface(left, 2.5).volume_mm3(), 0.0);
+}
+
+}  // namespace
+}  // namespace ream::ct
