@@ -285,7 +285,7 @@ std::string CaseService::surroundings(const std::string& id) {
     const bool coarse = static_cast<double>(bone->grid.voxel_count()) > max_fine_surroundings_voxels;
     const TriangleMesh whole = surface::whole_surface(bone->grid, bone->coverage.data(), 1, coarse ? 2 : 1);
     around = ct::surroundings_of(whole.transformed(bone->grid.world_from_grid),
-                                 case_::load_case_description(folder).bone.grid);
+                                 case_::load_case_description(folder));
   }
   if (around.triangles.empty())
     throw Error(ErrorKind::not_found, "case '" + id + "' has nothing around the bone that is reamed");

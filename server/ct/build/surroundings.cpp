@@ -1,18 +1,48 @@
 #include "ct/build/surroundings.hpp"
 
 #include <algorithm>
+#include <optional>
+
+#include "case/plan.hpp"
 
 namespace ream::ct {
 
-TriangleMesh surroundings_of(const TriangleMesh& bone_world, const voxel::VoxelGrid& grid) {
-  const Pose grid_from_world = grid.world_from_grid.inverse();
-  // The grid's own surface is closed along its sides.
-  const Vec3 low = 0.5 * grid.spacing_mm, high = grid.bounds_mm().max - low;
-  std::vector<uint8_t> inside(bone_world.vertices_mm.size());
-  for (size_t i = 0; i < inside.size(); ++i) {
-    const Vec3 at = grid_from_world.point(bone_world.vertices_mm[i].cast<double>());
-    inside[i] = (at.array() >= low.array()).all() && (at.array() <= high.array()).all();
+namespace {
+
+constexpr double overlap_mm = 1.0;
+/// Wider than any reamer of the library, and deeper than any reaming.
+constexpr double reamers_reach_mm = 24.0, reamers_depth_mm = 12.0;
+
+/// Whether a place (world) is described by the grid alone.
+class GridsOwn {
+ public:
+  explicit GridsOwn(const case_::Case& description)
+      : grid_from_world_(description.bone.grid.world_from_grid.inverse()),
+        box_(description.bone.grid.bounds_mm().grown(-overlap_mm)),
+        plan_(description.plan) {}
+
+  bool holds(const Vec3& world_mm) const { return in_box(world_mm) || in_reach(world_mm); }
+
+ private:
+  bool in_box(const Vec3& world_mm) const { return box_.contains(grid_from_world_.point(world_mm)); }
+  bool in_reach(const Vec3& world_mm) const {
+    if (!plan_) return false;
+    const Vec3 axis = plan_->axis_direction.normalized(), from_entry = world_mm - plan_->entry_mm;
+    const double along_mm = from_entry.dot(axis);
+    return along_mm < reamers_depth_mm && (from_entry - along_mm * axis).norm() < reamers_reach_mm;
   }
+
+  const Pose grid_from_world_;
+  const Aabb box_;
+  const std::optional<case_::Plan> plan_;
+};
+
+}  // namespace
+
+TriangleMesh surroundings_of(const TriangleMesh& bone_world, const case_::Case& description) {
+  const GridsOwn own(description);
+  std::vector<uint8_t> inside(bone_world.vertices_mm.size());
+  for (size_t i = 0; i < inside.size(); ++i) inside[i] = own.holds(bone_world.vertices_mm[i].cast<double>());
   constexpr uint32_t unused = UINT32_MAX;
   std::vector<uint32_t> place(inside.size(), unused);
   TriangleMesh around;

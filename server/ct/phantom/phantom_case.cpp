@@ -10,7 +10,7 @@ namespace ream::ct {
 namespace {
 
 constexpr double seed_depth_mm = 5.0, seed_reach_mm = 2.0;  // in the vault, under the plate
-constexpr double surroundings_sample_mm = 1.25;
+constexpr double surroundings_sample_mm = 1.0;
 constexpr double demo_depth_mm = 1.0;  // within the subchondral plate, and what the demo script reaches
 
 /// What of the phantom grows from within the vault.
@@ -55,7 +55,7 @@ case_::Case case_of(const Phantom& phantom, const Mask& mask, const std::string&
 void write_surroundings(const case_::Case& demo, const std::filesystem::path& folder) {
   PhantomParams whole = phantom_preset("demo").params;
   whole.field_mm = PhantomParams{}.field_mm;
-  const TriangleMesh around = surroundings_of(scapula_surface(whole, surroundings_sample_mm), demo.bone.grid);
+  const TriangleMesh around = surroundings_of(scapula_surface(whole, surroundings_sample_mm), demo);
   write_ply(folder / surroundings_file, around, case_::frame_in_words(demo.side));
 }
 

@@ -24,19 +24,38 @@ TriangleMesh strip() {
 }
 
 TEST(Surroundings, AreWhatDoesNotLieInTheGridsBoxAndNoLooseCorners) {
-  voxel::VoxelGrid grid;
-  grid.dims = {8, 8, 8};
+  case_::Case held;
+  voxel::VoxelGrid& grid = held.bone.grid;
+  grid.dims = {16, 16, 16};
   grid.spacing_mm = Vec3::Constant(0.25);
-  grid.world_from_grid.translation_mm = {1.5, -0.5, -0.5};
-  const TriangleMesh around = surroundings_of(strip(), grid);
-  // In the box are the corners at x = 2 and 3: of the four triangles one lies in it.
+  grid.world_from_grid.translation_mm = {0.5, -1.5, -1.5};
+  const TriangleMesh around = surroundings_of(strip(), held);
+  // In the box, a millimetre within its sides, are the corners at x = 2 and 3: of four triangles one lies in
+  // it.
   EXPECT_EQ(around.triangles.size(), 3u);
   EXPECT_EQ(around.vertices_mm.size(), 8u);
   EXPECT_EQ(around.normals.size(), around.vertices_mm.size());
   for (const auto& triangle : around.triangles)
     for (const uint32_t corner : triangle) ASSERT_LT(corner, around.vertices_mm.size());
   grid.world_from_grid.translation_mm = {-100, 0, 0};
-  EXPECT_EQ(surroundings_of(strip(), grid).triangles.size(), 4u);
+  EXPECT_EQ(surroundings_of(strip(), held).triangles.size(), 4u);
+}
+
+TEST(Surroundings, AreNotWhereAReamerComesTo) {
+  case_::Case held;
+  held.bone.grid.dims = {8, 8, 8};
+  held.bone.grid.world_from_grid.translation_mm = {-100, 0, 0};
+  held.plan.emplace();
+  held.plan->axis_direction = {1, 0, 0};
+  const auto left = [&held](double entry_x, double beside) {
+    held.plan->entry_mm = {entry_x, beside, 0};
+    return surroundings_of(strip(), held).triangles.size();
+  };
+  EXPECT_EQ(left(0, 0), 0u);    // in the bone's face
+  EXPECT_EQ(left(20, 0), 0u);   // before it
+  EXPECT_EQ(left(-20, 0), 4u);  // far under it
+  EXPECT_EQ(left(-10, 0), 3u);  // the first triangle ends 12 mm under it
+  EXPECT_EQ(left(0, 40), 4u);   // beside it
 }
 
 /// The rest of the demo's scapula goes on where the bone that is reamed ends, and is nowhere in its box.
@@ -55,9 +74,9 @@ TEST(Surroundings, OfTheDemoAreTheRestOfItsScapula) {
       centre += grid_from_world.point(around.vertices_mm[corner].cast<double>()) / 3.0;
     const Vec3 beyond = (grid.min - centre).cwiseMax(centre - grid.max).cwiseMax(0.0);
     nearest_mm = std::min(nearest_mm, beyond.norm());
-    ASSERT_FALSE(grid.grown(-1.25).contains(centre)) << centre.transpose();
+    ASSERT_FALSE(grid.grown(-2.5).contains(centre)) << centre.transpose();
   }
-  EXPECT_LT(nearest_mm, 1.25);
+  EXPECT_EQ(nearest_mm, 0.0);
   // The blade's lower tip is there: the scapula is over ten centimetres high.
   const Vec3 size = around.bounds().max - around.bounds().min;
   EXPECT_GT(size.z(), 120.0);
