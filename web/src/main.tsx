@@ -32,6 +32,7 @@ import { Watcher } from './state/watcher';
 import { Api } from './wire/api';
 import { WorkerDeviceSocket } from './wire/device_socket';
 import { LoginApi } from './wire/login_api';
+import { MeshLoader } from './wire/mesh_loader';
 import { ReviewApi } from './wire/review_api';
 import { WorkerStreamSocket } from './wire/stream_socket';
 import { StudyApi } from './wire/study_api';
@@ -71,7 +72,7 @@ function main(root: HTMLElement): void {
   });
   effect(() => scene.setToolShown(store.reamerShown.value));
   const liveCase = new LiveCase(store, () => identity.may.value.readCases, window.location.origin);
-  new Surroundings(store, scene, () => identity.may.value.readCases, window.location.origin);
+  new Surroundings(store, scene, new MeshLoader(), () => identity.may.value.readCases, window.location.origin);
   const alarms = new Alarms(store);
   const sound = new Sound(store, async () => (await import('./sound/sound_output')).SoundOutput.open());
   const latency = measureLatency(store, practiceStore, scene);

@@ -1,8 +1,13 @@
 import { effect } from '@preact/signals';
 
-import { MeshLoader } from '../wire/mesh_loader';
 import type { Surface } from '../wire/ply';
 import type { Store } from './store';
+
+/** Fetches a surface; null where a newer one was asked for meanwhile. */
+export interface SurfaceSource {
+  load(url: string): Promise<Surface | null>;
+  dispose(): void;
+}
 
 /** Where the surroundings are seen. */
 export interface SurroundingsPicture {
@@ -14,10 +19,16 @@ export interface SurroundingsPicture {
  * Without an answer the picture shows the bone alone, as it does where there is nothing around it.
  */
 export class Surroundings {
-  private readonly loader = new MeshLoader();
   private readonly stop: () => void;
 
-  constructor(store: Store, picture: SurroundingsPicture, wanted: () => boolean, origin: string) {
+  /** The source is this one's from here on. */
+  constructor(
+    store: Pick<Store, 'hello'>,
+    picture: SurroundingsPicture,
+    private readonly source: SurfaceSource,
+    wanted: () => boolean,
+    origin: string,
+  ) {
     let shown = '';
     this.stop = effect(() => {
       const hello = store.hello.value;
@@ -29,14 +40,13 @@ export class Surroundings {
       const take = (surface: Surface | null) => {
         if (surface !== null && shown === id) picture.showSurroundings(surface);
       };
-      void this.loader
-        .load(`${origin}/api/v1/cases/${encodeURIComponent(id)}/surroundings`)
-        .then(take, () => undefined);
+      const url = `${origin}/api/v1/cases/${encodeURIComponent(id)}/surroundings`;
+      void this.source.load(url).then(take, () => undefined);
     });
   }
 
   dispose(): void {
     this.stop();
-    this.loader.dispose();
+    this.source.dispose();
   }
 }

@@ -10,6 +10,7 @@ import { ReviewSettings } from '../../state/review/review_settings';
 import { Api } from '../../wire/api';
 import { ReviewApi } from '../../wire/review_api';
 import { WorkerStreamSocket } from '../../wire/stream_socket';
+import { MeshLoader } from '../../wire/mesh_loader';
 import { loadSurface } from '../../wire/surface_loader';
 
 /** One session that is reviewed, with its picture. */
@@ -69,7 +70,7 @@ export class ReviewWorkspace {
     session.start();
     const mayRead = () => this.may.readCases;
     const liveCase = new LiveCase(session.store, mayRead, this.origin);
-    const surroundings = new Surroundings(session.store, view.scene, mayRead, this.origin);
+    const surroundings = new Surroundings(session.store, view.scene, new MeshLoader(), mayRead, this.origin);
     const close = () => {
       surroundings.dispose();
       session.dispose();
