@@ -26,6 +26,7 @@ void add_serve_command(CLI::App& app, GlobalOptions& options);
 void add_score_command(CLI::App& app, GlobalOptions& options);
 void add_benchmark_command(CLI::App& app, GlobalOptions& options);
 void add_export_command(CLI::App& app, GlobalOptions& options);
+void add_render_command(CLI::App& app, GlobalOptions& options);
 void add_list_command(CLI::App& app, GlobalOptions& options);
 void add_replay_command(CLI::App& app, GlobalOptions& options);
 void add_devices_command(CLI::App& app, GlobalOptions& options);

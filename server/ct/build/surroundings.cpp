@@ -1,9 +1,11 @@
 #include "ct/build/surroundings.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <optional>
 
 #include "case/plan.hpp"
+#include "geometry/mesh_io.hpp"
 
 namespace ream::ct {
 
@@ -37,6 +39,18 @@ class GridsOwn {
   const std::optional<case_::Plan> plan_;
 };
 
+/// The mean of the triangles around each vertex, by their area.
+std::vector<Vec3f> smooth_normals(const TriangleMesh& mesh) {
+  std::vector<Vec3f> normals(mesh.vertices_mm.size(), Vec3f::Zero());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3f& corner = mesh.vertices_mm[a];
+    const Vec3f twice_area = (mesh.vertices_mm[b] - corner).cross(mesh.vertices_mm[c] - corner);
+    for (const uint32_t vertex : {a, b, c}) normals[vertex] += twice_area;
+  }
+  for (Vec3f& normal : normals) normal = normal.norm() > 0.0f ? Vec3f(normal.normalized()) : Vec3f::UnitZ();
+  return normals;
+}
+
 }  // namespace
 
 TriangleMesh surroundings_of(const TriangleMesh& bone_world, const case_::Case& description) {
@@ -59,6 +73,14 @@ TriangleMesh surroundings_of(const TriangleMesh& bone_world, const case_::Case& 
     }
     around.triangles.push_back(triangle);
   }
+  return around;
+}
+
+TriangleMesh kept_surroundings(const std::filesystem::path& case_folder) {
+  const std::filesystem::path file = case_folder / surroundings_file;
+  if (!std::filesystem::exists(file)) return {};
+  TriangleMesh around = load_mesh(file);
+  around.normals = smooth_normals(around);
   return around;
 }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <filesystem>
+
 #include "case/case.hpp"
 #include "geometry/triangle_mesh.hpp"
 
@@ -12,5 +14,9 @@ inline constexpr const char* surroundings_file = "surroundings.ply";
 /// grid's box (less a millimetre, so that no gap is seen along its sides), and those that a reamer on the
 /// planned axis may come to, which would look as if it could not cut them. Empty where nothing is left.
 TriangleMesh surroundings_of(const TriangleMesh& bone_world, const case_::Case& description);
+
+/// What that file of a case's folder holds, with smooth normals; empty where there is none. Errors: those of
+/// load_mesh.
+TriangleMesh kept_surroundings(const std::filesystem::path& case_folder);
 
 }  // namespace ream::ct

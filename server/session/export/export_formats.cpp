@@ -18,6 +18,7 @@
 #include "session/export/reamed_bone.hpp"
 #include "session/export/session_bundle.hpp"
 #include "session/export/session_report.hpp"
+#include "session/simulation/find_case.hpp"
 #include "session/simulation/reamed_pictures.hpp"
 #include "session/simulation/recorded_session.hpp"
 
@@ -161,7 +162,7 @@ void write_surface(const ExportRequest& request, const fs::path& out, const Prog
 void write_snapshot(const ExportRequest& request, const fs::path& out, const Progress& progress) {
   std::vector<uint8_t> before;
   const case_::Case left = left_case(request, before, progress);
-  write_picture(left, before, out);
+  write_picture(left, before, out, case_surroundings(left.id, request.data));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "case/two_plates.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
+#include "ct/build/surroundings.hpp"
 #include "ct/phantom/phantom_case.hpp"
 #include "session/simulation/recorded_setup.hpp"
 
@@ -56,6 +57,10 @@ case_::Case find_case(const std::string& name, const fs::path& data) {
   const fs::path folder = case_folder_of(name, data);
   if (!fs::exists(folder / "case.json")) make_built_in(name, data);
   return cache.load(folder);
+}
+
+TriangleMesh case_surroundings(const std::string& name, const fs::path& data) {
+  return ct::kept_surroundings(case_folder_of(name, data));
 }
 
 case_::Anatomy find_anatomy(const case_::Case& c, const std::string& name, const fs::path& data) {

@@ -44,13 +44,15 @@ Parts split(const TriangleMesh& surface, const voxel::BoneModel& bone, const std
 }
 
 void draw_picture(const case_::Case& bone_case, const TriangleMesh& surface,
-                  const std::vector<uint8_t>& before, const std::filesystem::path& png) {
+                  const std::vector<uint8_t>& before, const TriangleMesh& around,
+                  const std::filesystem::path& png) {
   const Parts parts = split(surface, bone_case.bone, before);
   std::vector<render::Layer> layers(2);
   layers[0].mesh = &parts.native;
   layers[1].mesh = &parts.fresh;
   layers[1].colour = render::cut_bone_colour;
   for (auto& layer : layers) layer.world_from_mesh = bone_case.bone.grid.world_from_grid;
+  if (!around.triangles.empty()) layers.emplace_back().mesh = &around;
   const Vec3 superior = bone_case.glenoid ? bone_case.glenoid->superior : Vec3::UnitZ();
   const render::Camera camera = glenoid_camera(plan_of(bone_case), superior, camera_distance_mm);
   render::write_png(png, render::draw(layers, camera, picture_width, picture_height));
@@ -77,9 +79,9 @@ TriangleMesh reamed_surface(const case_::Case& bone_case, int stride) {
 }
 
 void write_picture(const case_::Case& bone_case, const std::vector<uint8_t>& before,
-                   const std::filesystem::path& png) {
+                   const std::filesystem::path& png, const TriangleMesh& around) {
   const voxel::BoneModel& bone = bone_case.bone;
-  draw_picture(bone_case, surface::whole_surface(bone.grid, bone.coverage.data()), before, png);
+  draw_picture(bone_case, surface::whole_surface(bone.grid, bone.coverage.data()), before, around, png);
 }
 
 void write_reamed_pictures(const Simulation& simulation, const std::vector<uint8_t>& before,
@@ -88,7 +90,7 @@ void write_reamed_pictures(const Simulation& simulation, const std::vector<uint8
   const TriangleMesh surface = surface::whole_surface(bone.grid, bone.coverage.data());
   write_ply(folder / "reamed.ply", surface.transformed(bone.grid.world_from_grid),
             case_::frame_in_words(simulation.bone_case.side));
-  draw_picture(simulation.bone_case, surface, before, folder / "snapshot.png");
+  draw_picture(simulation.bone_case, surface, before, {}, folder / "snapshot.png");
 }
 
 }  // namespace ream::session

@@ -15,9 +15,10 @@ void write_reamed_pictures(const Simulation& simulation, const std::vector<uint8
 /// The surface of the case's bone as it is, world frame, mm; one sample every `stride` voxels.
 TriangleMesh reamed_surface(const case_::Case& bone_case, int stride = 1);
 
-/// snapshot.png of such a case, with a plan. `before`: the coverage before the first tick.
+/// snapshot.png of such a case. `before`: the coverage before the first tick. `around`: what lies around the
+/// bone, world frame, mm.
 void write_picture(const case_::Case& bone_case, const std::vector<uint8_t>& before,
-                   const std::filesystem::path& png);
+                   const std::filesystem::path& png, const TriangleMesh& around = {});
 
 /// Where the picture is taken from: in front of the glenoid, off the axis, superior up.
 render::Camera glenoid_camera(const case_::Plan& plan, const Vec3& superior, double distance_mm);

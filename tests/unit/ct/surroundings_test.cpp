@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <filesystem>
 
 #include "ct/phantom/phantom_case.hpp"
-#include "geometry/mesh_io.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ream::ct {
@@ -63,7 +63,14 @@ TEST(Surroundings, OfTheDemoAreTheRestOfItsScapula) {
   const test::TemporaryFolder data;
   const case_::Case demo = load_or_make_demo_case(data.path());
   const auto file = data.path() / "cases" / "demo" / surroundings_file;
-  const TriangleMesh around = load_mesh(file);
+  const TriangleMesh around = kept_surroundings(file.parent_path());
+  ASSERT_EQ(around.normals.size(), around.vertices_mm.size());
+  // Outwards: triangles are counter-clockwise seen from outside, and normals agree with them.
+  for (const auto& [a, b, c] : around.triangles) {
+    const Vec3f area =
+        (around.vertices_mm[b] - around.vertices_mm[a]).cross(around.vertices_mm[c] - around.vertices_mm[a]);
+    if (area.norm() > 0.1f) ASSERT_GT(area.dot(around.normals[a]), -0.1f * area.norm());
+  }
   EXPECT_GT(around.triangles.size(), 5000u);
   const Aabb grid = demo.bone.grid.bounds_mm();
   const Pose grid_from_world = demo.bone.grid.world_from_grid.inverse();
