@@ -25,6 +25,7 @@ import { Store } from './state/store';
 import { FeelWatch } from './state/study/feel_watch';
 import { theatreHere } from './state/theatre';
 import { theme } from './state/theme';
+import { toolAction } from './state/tool_action';
 import { ViewSettings } from './state/view_settings';
 import { linkInAddress, takeLinkFromAddress } from './state/watch_link';
 import { Watcher } from './state/watcher';
@@ -64,6 +65,7 @@ function main(root: HTMLElement): void {
   });
   effect(() => scene.setToolPose(store.telemetry.value?.worldFromTool ?? null));
   effect(() => scene.setBonePose(store.telemetry.value?.worldFromBoneRest ?? null));
+  effect(() => scene.setToolAction(toolAction(store.telemetry.value, store.upToDate.value)));
   effect(() => scene.setTouching(store.touching.value));
   effect(() => {
     if (scene.headset.worn.value) scene.headset.show(headsetMessage(store));

@@ -1,0 +1,81 @@
+import { CylinderGeometry, Group, Mesh, MeshStandardMaterial } from 'three';
+import type { BufferGeometry } from 'three';
+
+import { hidesNothing, steelMaterial } from './steel';
+import { bladeShare, bladesOf, bodyOf, sweptOf } from './tool_shape';
+import type { ToolProfile } from './tool_profile';
+
+export type ToolLook = 'glass' | 'throughBone' | 'steel';
+
+const shaftRadiusMm = 3;
+const shaftLengthMm = 45;
+/** What is swept hides as much as the blades did; in theatre nearly all of what is behind it. */
+const sweptOpacity: Record<ToolLook, number> = { glass: bladeShare, throughBone: bladeShare, steel: 0.88 };
+
+/** A plain shaft, which is not part of the model and only shows the axis, up to the head's back. */
+export function plainShaft(backZMm: number): Mesh {
+  const shaft = new CylinderGeometry(shaftRadiusMm, shaftRadiusMm, shaftLengthMm, 40);
+  shaft.rotateX(Math.PI / 2).translate(0, 0, backZMm - shaftLengthMm / 2);
+  return new Mesh(shaft, new MeshStandardMaterial({ color: 0xd3dade, roughness: 0.45, metalness: 0.1 }));
+}
+
+/** The instrument in steel: its body, and its blades, which turn and are a blur when they turn fast. */
+export class SteelParts {
+  readonly group = new Group();
+  private readonly bladeSteel = steelMaterial(0xe2e7ea, 0.26);
+  private readonly bodySteel = steelMaterial(0xbcc4c9, 0.36);
+  private readonly sweptSteel = steelMaterial(0xd2d8dc, 0.45);
+  private readonly farAway = hidesNothing();
+  private readonly blades: Mesh;
+  private readonly swept: Mesh;
+  private readonly body: Mesh;
+  private readonly bladesAway: Mesh;
+  private readonly bodyAway: Mesh;
+  private look: ToolLook = 'glass';
+
+  constructor(profile: ToolProfile) {
+    this.body = new Mesh(bodyOf(profile), this.bodySteel);
+    this.blades = new Mesh(bladesOf(profile), this.bladeSteel);
+    this.swept = new Mesh(sweptOf(profile), this.sweptSteel);
+    this.sweptSteel.transparent = true;
+    this.sweptSteel.depthWrite = false;
+    this.bodyAway = lastOf(this.body.geometry, this.farAway);
+    this.bladesAway = lastOf(this.blades.geometry, this.farAway);
+    this.blades.add(this.bladesAway);
+    this.group.add(this.body, this.blades, this.swept, this.bodyAway);
+    this.setLook(this.look);
+    this.turn(0, 0);
+  }
+
+  /** Through bone, steel hides itself as it should, but nothing of the bone, which is drawn afterwards. */
+  setLook(look: ToolLook): void {
+    this.look = look;
+    this.bodyAway.visible = this.bladesAway.visible = look === 'throughBone';
+  }
+
+  /** Blades at this angle, that far a blur, 0 to 1. */
+  turn(angle: number, blur: number): void {
+    this.blades.rotation.z = angle;
+    this.blades.visible = blur < 1;
+    this.swept.visible = blur > 0;
+    const { bladeSteel, sweptSteel } = this;
+    if (bladeSteel.transparent !== blur > 0) {
+      bladeSteel.transparent = blur > 0;
+      bladeSteel.needsUpdate = true;
+    }
+    bladeSteel.opacity = 1 - blur;
+    bladeSteel.depthWrite = blur < 0.5;
+    sweptSteel.opacity = blur * sweptOpacity[this.look];
+  }
+
+  dispose(): void {
+    for (const mesh of [this.body, this.blades, this.swept]) mesh.geometry.dispose();
+    for (const material of [this.bladeSteel, this.bodySteel, this.sweptSteel, this.farAway]) material.dispose();
+  }
+}
+
+function lastOf(geometry: BufferGeometry, material: ReturnType<typeof hidesNothing>): Mesh {
+  const mesh = new Mesh(geometry, material);
+  mesh.renderOrder = 2;
+  return mesh;
+}
