@@ -2,12 +2,13 @@ import { Color, IcosahedronGeometry, InstancedMesh, Matrix4, MeshStandardMateria
 
 import { chipsMost, type Debris, dropsMost, type Particle } from './debris';
 
-const dryBone = new Color(0xead6bd);
+const dryBone = new Color(0xf6e6cf);
 const bloodyBone = new Color(0xa8604c);
-const water = new Color(0xd6ecff);
+/** Brighter than white under a lamp, as what glitters. */
+const water = new Color(1.7, 1.9, 2.1);
 /** Chips are curled flakes; drops are drawn out along their way. */
 const chipShape = new Vector3(1, 0.65, 0.3);
-const dropShape = new Vector3(0.45, 0.45, 2.2);
+const dropShape = new Vector3(0.5, 0.5, 2.6);
 /** From this share of its life on a particle grows less. */
 const fadesFrom = 0.55;
 const ahead = new Vector3(0, 0, 1);

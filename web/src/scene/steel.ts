@@ -15,9 +15,9 @@ const roomHigh = 32;
 
 /** Polished or brushed steel in the light of an operating room. */
 export function steelMaterial(colour: number, roughness: number): MeshStandardMaterial {
-  const material = new MeshStandardMaterial({ color: colour, roughness, metalness: 0.85 });
+  const material = new MeshStandardMaterial({ color: colour, roughness, metalness: 0.92 });
   material.envMap = theRoom();
-  material.envMapIntensity = 0.85;
+  material.envMapIntensity = 1.05;
   // The room's y is up; superior is z.
   material.envMapRotation.set(Math.PI / 2, 0, 0);
   return material;
@@ -32,7 +32,7 @@ function theRoom(): DataTexture {
   for (let row = 0; row < roomHigh; ++row)
     for (let column = 0; column < roomWide; ++column) {
       const light = brightness(column / roomWide, (row + 0.5) / roomHigh);
-      [light, light, 1.04 * light, 1].forEach((value, i) => {
+      [light, 0.99 * light, 0.97 * light, 1].forEach((value, i) => {
         data[4 * (row * roomWide + column) + i] = DataUtils.toHalfFloat(value);
       });
     }
@@ -46,11 +46,11 @@ function theRoom(): DataTexture {
 
 /** Around the room, and from the floor to the ceiling; both 0 to 1. */
 function brightness(around: number, up: number): number {
-  const walls = 0.18 + 0.55 * up;
+  const walls = 0.12 + 0.68 * up ** 1.5;
   const lamps = Math.max(0, Math.cos(6 * Math.PI * around)) ** 6;
   const high = Math.exp(-(((up - 0.74) / 0.1) ** 2));
   const window = Math.exp(-(((up - 0.5) / 0.16) ** 2)) * Math.max(0, Math.cos(2 * Math.PI * (around - 0.3))) ** 24;
-  return walls + 4.5 * lamps * high + 1.6 * window;
+  return walls + 5.5 * lamps * high + 1.8 * window;
 }
 
 /** Draws nothing, and takes away what was drawn here as if it were as far as can be: it hides nothing drawn later. */

@@ -2,15 +2,15 @@ import { CylinderGeometry, Group, Mesh, MeshStandardMaterial } from 'three';
 import type { BufferGeometry } from 'three';
 
 import { hidesNothing, steelMaterial } from './steel';
-import { bladeShare, bladesOf, bodyOf, sweptOf } from './tool_shape';
+import { bladesOf, bodyOf, sweptOf } from './tool_shape';
 import type { ToolProfile } from './tool_profile';
 
 export type ToolLook = 'glass' | 'throughBone' | 'steel';
 
 const shaftRadiusMm = 3;
 const shaftLengthMm = 45;
-/** What is swept hides as much as the blades did; in theatre nearly all of what is behind it. */
-const sweptOpacity: Record<ToolLook, number> = { glass: bladeShare, throughBone: bladeShare, steel: 0.88 };
+/** What is swept hides about as much as the blades did; in theatre nearly all of what is behind it. */
+const sweptOpacity: Record<ToolLook, number> = { glass: 0.55, throughBone: 0.55, steel: 0.88 };
 
 /** A plain shaft, which is not part of the model and only shows the axis, up to the head's back. */
 export function plainShaft(backZMm: number): Mesh {
@@ -22,9 +22,9 @@ export function plainShaft(backZMm: number): Mesh {
 /** The instrument in steel: its body, and its blades, which turn and are a blur when they turn fast. */
 export class SteelParts {
   readonly group = new Group();
-  private readonly bladeSteel = steelMaterial(0xe2e7ea, 0.26);
-  private readonly bodySteel = steelMaterial(0xbcc4c9, 0.36);
-  private readonly sweptSteel = steelMaterial(0xd2d8dc, 0.45);
+  private readonly bladeSteel = steelMaterial(0xf0f2f3, 0.22);
+  private readonly bodySteel = steelMaterial(0xcdd2d5, 0.32);
+  private readonly sweptSteel = steelMaterial(0xdfe3e6, 0.4);
   private readonly farAway = hidesNothing();
   private readonly blades: Mesh;
   private readonly swept: Mesh;

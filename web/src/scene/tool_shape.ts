@@ -10,7 +10,7 @@ const lipOffsetShare = Math.sin((9.46 * Math.PI) / 180);
 export const lipPitchRad = (2 * Math.PI) / lipCount;
 
 /** Behind its lip a blade goes on for so much of the way to the next lip; the rest is open to the bone. */
-export const bladeShare = 0.46;
+const bladeShare = 0.46;
 const bladeColumns = 7;
 const toothMm = 2.6;
 const notch = { widthMm: 0.7, flankMm: 0.2, deepMm: 0.6 };
@@ -22,16 +22,21 @@ const shareOfWall = 0.35;
 /** What does not cut stands back by this, so that nothing lies in the envelope but lips. */
 const insetMm = 0.02;
 const bodyInsetMm = 0.35;
+/** The lips' ends stand out of the rim by so much less, so that both are told apart. */
+const rimInsetMm = 0.14;
 const rimWallMm = 1.3;
 const hubWallMm = 1.4;
 const boreMm = 1.3;
 const sides = 72;
 const stepMm = 1.2;
+/** Rings that teeth in a blur leave. */
+const ringMm = toothMm / 2;
 
 /** All of the length behind the head. The shaft is as long as it is drawn for other reamers. */
-const collar = { radiusMm: 4.2, lengthMm: 6 };
-const shaftMm = 3;
-const chuck = { radiusMm: 4.8, lengthMm: 15 };
+const collar = { radiusMm: 3.8, lengthMm: 6 };
+/** No wider: who looks along it sees the bone past it. */
+const shaftMm = 2.5;
+const chuck = { radiusMm: 3.5, lengthMm: 15 };
 const lengthMm = 47;
 
 /** The lips with their blades, which turn: their edges lie on the envelope, nothing of them outside. */
@@ -55,13 +60,15 @@ export function bodyOf(profile: ToolProfile): BufferGeometry {
 /** Where the blades are seen while they turn too fast to be told apart. */
 export function sweptOf(profile: ToolProfile): BufferGeometry {
   const shapes = new SolidShapes();
-  const radii = [...bladeRadii(profile, null)];
+  const radii = bladeRadii(profile, null);
   const { relief } = depths(profile);
   const at = (offMm: number, backMm: number) => ({
     offMm,
     zMm: Math.max(faceHeightMm(profile, offMm) - backMm, profile.backZMm + insetMm),
   });
-  const front = radii.map((offMm) => at(offMm, insetMm + relief / 2));
+  const front = radii.map((offMm) =>
+    at(offMm, insetMm + relief * (0.5 + 0.4 * Math.sin((2 * Math.PI * offMm) / ringMm))),
+  );
   const back = radii.map((offMm) => at(offMm, relief + plateMm));
   shapes.addTurned([...front, ...back.reverse()], sides);
   return shapes.geometry();
@@ -95,7 +102,7 @@ function notchMm(notches: number[], offMm: number): number {
 function bladeRadii(profile: ToolProfile, blade: number | null): number[] {
   const { widthMm, flankMm } = notch;
   const [from, to] = [hubMm(profile) - 0.3, profile.rimMm - insetMm];
-  const steps = Math.ceil((to - from) / stepMm);
+  const steps = Math.ceil((to - from) / (blade === null ? ringMm / 4 : stepMm));
   const radii = [
     ...Array.from({ length: steps + 1 }, (_, i) => from + ((to - from) * i) / steps),
     ...profile.face.map(({ offMm }) => offMm),
@@ -166,7 +173,7 @@ function rounded(nipple: readonly MeridianPoint[]): MeridianPoint[] {
 }
 
 function rim(profile: ToolProfile): MeridianPoint[] {
-  const [outer, inner] = [profile.rimMm - insetMm, profile.rimMm - rimWallMm];
+  const [outer, inner] = [profile.rimMm - rimInsetMm, profile.rimMm - rimWallMm];
   const { notched } = depths(profile);
   const top = (offMm: number) => Math.max(faceHeightMm(profile, offMm) - notched, profile.backZMm + 0.2);
   const back = profile.backZMm + insetMm;
@@ -196,8 +203,8 @@ function handle(profile: ToolProfile): MeridianPoint[] {
     [collarMm, collarEnd - 0.6],
     [shaftMm, collarEnd],
     [shaftMm, chuckFrom],
-    [shaftMm + 0.6, chuckFrom + 0.4],
-    [chuck.radiusMm, chuckFrom + 3],
+    [shaftMm + 0.2, chuckFrom + 0.3],
+    [chuck.radiusMm, chuckFrom + 2.5],
     ...[5, 8, 11].flatMap((at) => groove(chuckFrom + at)),
     [chuck.radiusMm, lengthMm - 0.8],
     [chuck.radiusMm - 0.8, lengthMm],

@@ -14,7 +14,7 @@ const glassColour = 0x8fb3c4;
 const steelColour = 0xb4c0c6;
 const glassOpacity: Record<ToolLook, number> = { glass: 0.5, throughBone: 0.8, steel: 1 };
 /** Around steel, where it only shows how far the reamer cuts. */
-const faintOpacity = 0.16;
+const faintOpacity = 0.24;
 
 /**
  * The reamer where the server says it is. Plain: the cutting envelope, see-through so that the bone under it can be
