@@ -103,7 +103,7 @@ export class Debris {
       at: place.applyQuaternion(turn).add(at),
       velocity: velocity.applyQuaternion(turn),
       turn: new Quaternion(this.between(-1, 1), this.between(-1, 1), this.between(-1, 1), 1).normalize(),
-      sizeMm: this.between(0.4, 1.0),
+      sizeMm: this.between(0.35, 0.85),
       shade: this.random(),
       ageS: 0,
       lifeS: this.between(chipLifeS.least, chipLifeS.most),

@@ -1,5 +1,5 @@
 import { BufferAttribute, BufferGeometry } from 'three';
-import { mergeVertices, toCreasedNormals } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
+import { toCreasedNormals } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
 
 import type { MeridianPoint } from './meridian';
 
@@ -7,12 +7,8 @@ type Place = readonly [x: number, y: number, z: number];
 /** Rows of places, all of the same length. */
 export type Grid = readonly (readonly Place[])[];
 
-const creaseRad = 0.6;
-
-/** Edges that are sharper than the crease stay edges. */
-export function creased(geometry: BufferGeometry): BufferGeometry {
-  return mergeVertices(toCreasedNormals(geometry, creaseRad));
-}
+/** Edges that are sharper stay edges. */
+export const creaseRad = 0.6;
 
 export const turned = (offMm: number, angle: number, zMm: number): Place => [
   offMm * Math.cos(angle),
@@ -55,7 +51,7 @@ export class SolidShapes {
   geometry(): BufferGeometry {
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', new BufferAttribute(new Float32Array(this.corners), 3));
-    return creased(geometry);
+    return toCreasedNormals(geometry, creaseRad);
   }
 
   private addSheet(grid: Grid): void {

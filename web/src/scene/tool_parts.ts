@@ -1,9 +1,10 @@
-import { CylinderGeometry, Group, Mesh, MeshStandardMaterial } from 'three';
-import type { BufferGeometry } from 'three';
+import { type BufferGeometry, CylinderGeometry, DoubleSide, Group, Mesh, MeshStandardMaterial } from 'three';
 
 import { hidesNothing, steelMaterial } from './steel';
-import { bladesOf, bodyOf, sweptOf } from './tool_shape';
+import { bladesOf, bodyOf, envelopeOf, sweptOf } from './tool_shape';
 import type { ToolProfile } from './tool_profile';
+
+export const glassColour = 0x8fb3c4;
 
 export type ToolLook = 'glass' | 'throughBone' | 'steel';
 
@@ -19,16 +20,28 @@ export function plainShaft(backZMm: number): Mesh {
   return new Mesh(shaft, new MeshStandardMaterial({ color: 0xd3dade, roughness: 0.45, metalness: 0.1 }));
 }
 
-/** The instrument in steel: its body, and its blades, which turn and are a blur when they turn fast. */
+/**
+ * The instrument in steel: its body, and its blades, which turn and are a blur when they turn fast; around them faint glass
+ * shows how far they cut.
+ */
 export class SteelParts {
   readonly group = new Group();
   private readonly bladeSteel = steelMaterial(0xf0f2f3, 0.22);
   private readonly bodySteel = steelMaterial(0xcdd2d5, 0.32);
   private readonly sweptSteel = steelMaterial(0xdfe3e6, 0.4);
+  private readonly faintGlass = new MeshStandardMaterial({
+    color: glassColour,
+    roughness: 0.28,
+    transparent: true,
+    opacity: 0.22,
+    depthWrite: false,
+    side: DoubleSide,
+  });
   private readonly farAway = hidesNothing();
   private readonly blades: Mesh;
   private readonly swept: Mesh;
   private readonly body: Mesh;
+  private readonly envelope: Mesh;
   private readonly bladesAway: Mesh;
   private readonly bodyAway: Mesh;
   private look: ToolLook = 'glass';
@@ -37,12 +50,13 @@ export class SteelParts {
     this.body = new Mesh(bodyOf(profile), this.bodySteel);
     this.blades = new Mesh(bladesOf(profile), this.bladeSteel);
     this.swept = new Mesh(sweptOf(profile), this.sweptSteel);
+    this.envelope = new Mesh(envelopeOf(profile), this.faintGlass);
     this.sweptSteel.transparent = true;
     this.sweptSteel.depthWrite = false;
     this.bodyAway = lastOf(this.body.geometry, this.farAway);
     this.bladesAway = lastOf(this.blades.geometry, this.farAway);
     this.blades.add(this.bladesAway);
-    this.group.add(this.body, this.blades, this.swept, this.bodyAway);
+    this.group.add(this.body, this.blades, this.swept, this.envelope, this.bodyAway);
     this.setLook(this.look);
     this.turn(0, 0);
   }
@@ -50,6 +64,7 @@ export class SteelParts {
   /** Through bone, steel hides itself as it should, but nothing of the bone, which is drawn afterwards. */
   setLook(look: ToolLook): void {
     this.look = look;
+    this.envelope.visible = look !== 'steel';
     this.bodyAway.visible = this.bladesAway.visible = look === 'throughBone';
   }
 
@@ -69,8 +84,9 @@ export class SteelParts {
   }
 
   dispose(): void {
-    for (const mesh of [this.body, this.blades, this.swept]) mesh.geometry.dispose();
-    for (const material of [this.bladeSteel, this.bodySteel, this.sweptSteel, this.farAway]) material.dispose();
+    for (const mesh of [this.body, this.blades, this.swept, this.envelope]) mesh.geometry.dispose();
+    const { bladeSteel, bodySteel, sweptSteel, faintGlass, farAway } = this;
+    for (const material of [bladeSteel, bodySteel, sweptSteel, faintGlass, farAway]) material.dispose();
   }
 }
 

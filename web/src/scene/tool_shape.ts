@@ -27,7 +27,7 @@ const rimInsetMm = 0.14;
 const rimWallMm = 1.3;
 const hubWallMm = 1.4;
 const boreMm = 1.3;
-const sides = 72;
+const sides = 60;
 const stepMm = 1.2;
 /** Rings that teeth in a blur leave. */
 const ringMm = toothMm / 2;
@@ -57,19 +57,24 @@ export function bodyOf(profile: ToolProfile): BufferGeometry {
   return shapes.geometry();
 }
 
+/** What cuts and what guides, all around: how far the reamer reaches. Seen from both sides. */
+export function envelopeOf({ nipple, face }: ToolProfile): BufferGeometry {
+  const shapes = new SolidShapes();
+  shapes.addTurned([...nipple, ...(nipple.length > 0 ? face.slice(1) : face)], sides);
+  return shapes.geometry();
+}
+
 /** Where the blades are seen while they turn too fast to be told apart. */
 export function sweptOf(profile: ToolProfile): BufferGeometry {
   const shapes = new SolidShapes();
-  const radii = bladeRadii(profile, null);
   const { relief } = depths(profile);
   const at = (offMm: number, backMm: number) => ({
     offMm,
     zMm: Math.max(faceHeightMm(profile, offMm) - backMm, profile.backZMm + insetMm),
   });
-  const front = radii.map((offMm) =>
-    at(offMm, insetMm + relief * (0.5 + 0.4 * Math.sin((2 * Math.PI * offMm) / ringMm))),
-  );
-  const back = radii.map((offMm) => at(offMm, relief + plateMm));
+  const ring = (offMm: number) => relief * (0.5 + 0.4 * Math.sin((2 * Math.PI * offMm) / ringMm));
+  const front = bladeRadii(profile, ringMm / 4).map((offMm) => at(offMm, insetMm + ring(offMm)));
+  const back = bladeRadii(profile, stepMm).map((offMm) => at(offMm, relief + plateMm));
   shapes.addTurned([...front, ...back.reverse()], sides);
   return shapes.geometry();
 }
@@ -98,17 +103,15 @@ function notchMm(notches: number[], offMm: number): number {
   return Math.min(Math.max(...inside, 0) / notch.flankMm, 1);
 }
 
-/** Where the outline of a blade bends, from its hub to the rim; null: that of all blades together, without teeth. */
-function bladeRadii(profile: ToolProfile, blade: number | null): number[] {
+/** Where the outline of a blade with such notches bends, from its hub to the rim, with no wider steps. */
+function bladeRadii(profile: ToolProfile, widestMm: number, notches: number[] = []): number[] {
   const { widthMm, flankMm } = notch;
   const [from, to] = [hubMm(profile) - 0.3, profile.rimMm - insetMm];
-  const steps = Math.ceil((to - from) / (blade === null ? ringMm / 4 : stepMm));
+  const steps = Math.ceil((to - from) / widestMm);
   const radii = [
     ...Array.from({ length: steps + 1 }, (_, i) => from + ((to - from) * i) / steps),
     ...profile.face.map(({ offMm }) => offMm),
-    ...(blade === null ? [] : notchesOf(profile, blade)).flatMap((at) =>
-      [0, flankMm, widthMm - flankMm, widthMm].map((along) => at + along),
-    ),
+    ...notches.flatMap((at) => [0, flankMm, widthMm - flankMm, widthMm].map((along) => at + along)),
   ];
   const ordered = radii.filter((offMm) => offMm >= from && offMm <= to).sort((a, b) => a - b);
   return ordered.filter((offMm, i) => i === 0 || offMm - (ordered[i - 1] ?? 0) > 1e-3);
@@ -118,7 +121,7 @@ function bladePlate(profile: ToolProfile, blade: number): { front: Grid; back: G
   const { relief, notched } = depths(profile);
   const notches = notchesOf(profile, blade);
   const least = profile.backZMm + insetMm;
-  const rows = bladeRadii(profile, blade).map((offMm) => {
+  const rows = bladeRadii(profile, stepMm, notches).map((offMm) => {
     const heightMm = faceHeightMm(profile, offMm);
     const cutMm = notched * notchMm(notches, offMm);
     const columns = Array.from({ length: bladeColumns }, (_, j) => {

@@ -1,20 +1,18 @@
 import { BufferAttribute, BufferGeometry, Group, Mesh, MeshStandardMaterial, Quaternion, Vector3 } from 'three';
+import { mergeVertices, toCreasedNormals } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
 
 import type { ToolAction } from '../state/tool_action';
 import type { Pose, ToolMesh } from '../wire/messages';
 import { Debris, type Source } from './debris';
 import { DebrisView } from './debris_view';
-import { creased } from './solid_shapes';
-import { plainShaft, SteelParts, type ToolLook } from './tool_parts';
+import { creaseRad } from './solid_shapes';
+import { glassColour, plainShaft, SteelParts, type ToolLook } from './tool_parts';
 import { profileOf, type ToolProfile } from './tool_profile';
 import { lipPitchRad } from './tool_shape';
 import { Spin } from './tool_spin';
 
-const glassColour = 0x8fb3c4;
 const steelColour = 0xb4c0c6;
 const glassOpacity: Record<ToolLook, number> = { glass: 0.5, throughBone: 0.8, steel: 1 };
-/** Around steel, where it only shows how far the reamer cuts. */
-const faintOpacity = 0.24;
 
 /**
  * The reamer where the server says it is. Plain: the cutting envelope, see-through so that the bone under it can be
@@ -60,7 +58,7 @@ export class ToolView {
       const indexed = new BufferGeometry();
       indexed.setAttribute('position', new BufferAttribute(tool.positionsMm, 3));
       indexed.setIndex(new BufferAttribute(tool.indices, 1));
-      this.envelope = new Mesh(creased(indexed), this.glass);
+      this.envelope = new Mesh(mergeVertices(toCreasedNormals(indexed, creaseRad)), this.glass);
       this.envelope.geometry.computeBoundingBox();
       this.shaft = plainShaft(this.envelope.geometry.boundingBox?.min.z ?? 0);
       this.placed.add(this.envelope, this.shaft);
@@ -157,17 +155,16 @@ export class ToolView {
     if (this.wantsFull) this.makeSteel();
     else if (this.steel !== null) this.dropSteel();
     this.steel?.setLook(this.look);
-    if (this.shaft !== null) this.shaft.visible = this.steel === null;
-    this.dressEnvelope(this.steel !== null);
+    for (const part of [this.envelope, this.shaft]) if (part !== null) part.visible = this.steel === null;
+    this.dressEnvelope();
   }
 
-  private dressEnvelope(faint: boolean): void {
+  private dressEnvelope(): void {
     const { glass, look } = this;
-    if (this.envelope !== null) this.envelope.visible = !faint || look !== 'steel';
     if (glass.transparent !== (look !== 'steel')) glass.needsUpdate = true;
     glass.transparent = look !== 'steel';
-    glass.opacity = faint ? faintOpacity : glassOpacity[look];
-    glass.depthWrite = !faint && look !== 'throughBone';
+    glass.opacity = glassOpacity[look];
+    glass.depthWrite = look !== 'throughBone';
     glass.color.set(look === 'steel' ? steelColour : glassColour);
   }
 }
