@@ -116,6 +116,7 @@ export class BoneScene implements SteeredView {
   dispose(): void {
     this.headset.dispose();
     this.bone.dispose();
+    this.tool.dispose();
     this.renderer.dispose();
     this.renderer.forceContextLoss();
   }

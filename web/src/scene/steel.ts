@@ -8,26 +8,24 @@ import {
   MeshStandardMaterial,
   RGBAFormat,
   ShaderMaterial,
+  type Texture,
 } from 'three';
 
 const roomWide = 64;
 const roomHigh = 32;
 
-/** Polished or brushed steel in the light of an operating room. */
-export function steelMaterial(colour: number, roughness: number): MeshStandardMaterial {
+/** Polished or brushed steel that mirrors a room. */
+export function steelMaterial(colour: number, roughness: number, room: Texture): MeshStandardMaterial {
   const material = new MeshStandardMaterial({ color: colour, roughness, metalness: 0.92 });
-  material.envMap = theRoom();
+  material.envMap = room;
   material.envMapIntensity = 1.05;
   // The room's y is up; superior is z.
   material.envMapRotation.set(Math.PI / 2, 0, 0);
   return material;
 }
 
-let room: DataTexture | null = null;
-
-/** What steel mirrors: bright ceiling lamps, pale walls, a dark floor. Shared by all pictures. */
-function theRoom(): DataTexture {
-  if (room !== null) return room;
+/** What steel mirrors: bright ceiling lamps, pale walls, a dark floor. */
+export function operatingRoom(): DataTexture {
   const data = new Uint16Array(4 * roomWide * roomHigh);
   for (let row = 0; row < roomHigh; ++row)
     for (let column = 0; column < roomWide; ++column) {
@@ -36,7 +34,7 @@ function theRoom(): DataTexture {
         data[4 * (row * roomWide + column) + i] = DataUtils.toHalfFloat(value);
       });
     }
-  room = new DataTexture(data, roomWide, roomHigh, RGBAFormat, HalfFloatType);
+  const room = new DataTexture(data, roomWide, roomHigh, RGBAFormat, HalfFloatType);
   room.mapping = EquirectangularReflectionMapping;
   room.minFilter = LinearFilter;
   room.magFilter = LinearFilter;

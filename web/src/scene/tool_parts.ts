@@ -1,6 +1,6 @@
 import { type BufferGeometry, CylinderGeometry, DoubleSide, Group, Mesh, MeshStandardMaterial } from 'three';
 
-import { hidesNothing, steelMaterial } from './steel';
+import { hidesNothing, operatingRoom, steelMaterial } from './steel';
 import { bladesOf, bodyOf, envelopeOf, sweptOf } from './tool_shape';
 import type { ToolProfile } from './tool_profile';
 
@@ -14,10 +14,10 @@ const shaftLengthMm = 45;
 const sweptOpacity: Record<ToolLook, number> = { glass: 0.55, throughBone: 0.55, steel: 0.88 };
 
 /** A plain shaft, which is not part of the model and only shows the axis, up to the head's back. */
-export function plainShaft(backZMm: number): Mesh {
+export function plainShaft(backZMm: number, material: MeshStandardMaterial): Mesh {
   const shaft = new CylinderGeometry(shaftRadiusMm, shaftRadiusMm, shaftLengthMm, 40);
   shaft.rotateX(Math.PI / 2).translate(0, 0, backZMm - shaftLengthMm / 2);
-  return new Mesh(shaft, new MeshStandardMaterial({ color: 0xd3dade, roughness: 0.45, metalness: 0.1 }));
+  return new Mesh(shaft, material);
 }
 
 /**
@@ -26,9 +26,10 @@ export function plainShaft(backZMm: number): Mesh {
  */
 export class SteelParts {
   readonly group = new Group();
-  private readonly bladeSteel = steelMaterial(0xf0f2f3, 0.22);
-  private readonly bodySteel = steelMaterial(0xcdd2d5, 0.32);
-  private readonly sweptSteel = steelMaterial(0xdfe3e6, 0.4);
+  private readonly room = operatingRoom();
+  private readonly bladeSteel = steelMaterial(0xf0f2f3, 0.22, this.room);
+  private readonly bodySteel = steelMaterial(0xcdd2d5, 0.32, this.room);
+  private readonly sweptSteel = steelMaterial(0xdfe3e6, 0.4, this.room);
   private readonly faintGlass = new MeshStandardMaterial({
     color: glassColour,
     roughness: 0.28,
@@ -87,6 +88,7 @@ export class SteelParts {
     for (const mesh of [this.body, this.blades, this.swept, this.envelope]) mesh.geometry.dispose();
     const { bladeSteel, bodySteel, sweptSteel, faintGlass, farAway } = this;
     for (const material of [bladeSteel, bodySteel, sweptSteel, faintGlass, farAway]) material.dispose();
+    this.room.dispose();
   }
 }
 

@@ -30,6 +30,7 @@ export class ToolView {
     transparent: true,
     opacity: glassOpacity.glass,
   });
+  private readonly shaftMaterial = new MeshStandardMaterial({ color: 0xd3dade, roughness: 0.45, metalness: 0.1 });
   private envelope: Mesh | null = null;
   private shaft: Mesh | null = null;
   private mesh: ToolMesh | null = null;
@@ -60,7 +61,7 @@ export class ToolView {
       indexed.setIndex(new BufferAttribute(tool.indices, 1));
       this.envelope = new Mesh(mergeVertices(toCreasedNormals(indexed, creaseRad)), this.glass);
       this.envelope.geometry.computeBoundingBox();
-      this.shaft = plainShaft(this.envelope.geometry.boundingBox?.min.z ?? 0);
+      this.shaft = plainShaft(this.envelope.geometry.boundingBox?.min.z ?? 0, this.shaftMaterial);
       this.placed.add(this.envelope, this.shaft);
     }
     this.refresh();
@@ -111,6 +112,13 @@ export class ToolView {
     const flies = debris.step(seconds, this.source);
     this.debrisView.show(debris, this.boneIsWhole && this.placed.visible);
     return speed !== 0 || flies;
+  }
+
+  dispose(): void {
+    this.clear();
+    this.glass.dispose();
+    this.shaftMaterial.dispose();
+    this.debrisView.dispose();
   }
 
   private get moves(): boolean {
