@@ -27,7 +27,7 @@ function shown(full: boolean, still = false, name = 'convex-30') {
 function meshes(view: ToolView): Mesh[] {
   const found: Mesh[] = [];
   view.group.traverseVisible((part: Object3D) => {
-    if (part instanceof Mesh) found.push(part);
+    if (part instanceof Mesh) found.push(part as Mesh);
   });
   return found;
 }
