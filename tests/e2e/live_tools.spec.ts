@@ -76,9 +76,17 @@ test('cuts the bone along the reamer and along the planes of the body, and remem
   await page.getByTestId('section-axial-flip').click();
   await expect(page.getByTestId('section-axial-flip')).toHaveAttribute('aria-pressed', 'true');
 
+  const drawing = page.getByTestId('tool-drawing');
+  await expect(drawing.locator('option:checked')).toHaveText('Automatic (plain now)');
+  const plain = await bone(page);
+  await drawing.selectOption('full');
+  await expect.poll(() => changed(page, plain)).toBeGreaterThan(1000);
+  await page.screenshot({ path: info.outputPath('full.png') });
+
   await page.reload();
   await untilLive(page);
   await page.getByTestId('sections').click();
+  await expect(drawing).toHaveValue('full');
   await expect(page.getByTestId('section-axial')).toBeChecked();
   await expect(page.getByTestId('section-axial-offset')).toHaveValue('5');
   await expect(page.getByTestId('see-through')).toHaveAttribute('aria-pressed', 'false');

@@ -25,6 +25,7 @@ import { Store } from './state/store';
 import { FeelWatch } from './state/study/feel_watch';
 import { theatreHere } from './state/theatre';
 import { theme } from './state/theme';
+import { toolAction } from './state/tool_action';
 import { ViewSettings } from './state/view_settings';
 import { linkInAddress, takeLinkFromAddress } from './state/watch_link';
 import { Surroundings } from './state/surroundings';
@@ -66,13 +67,15 @@ function main(root: HTMLElement): void {
   });
   effect(() => scene.setToolPose(store.telemetry.value?.worldFromTool ?? null));
   effect(() => scene.setBonePose(store.telemetry.value?.worldFromBoneRest ?? null));
+  effect(() => scene.setToolAction(toolAction(store.telemetry.value, store.upToDate.value)));
   effect(() => scene.setTouching(store.touching.value));
   effect(() => {
     if (scene.headset.worn.value) scene.headset.show(headsetMessage(store));
   });
   effect(() => scene.setToolShown(store.reamerShown.value));
   const liveCase = new LiveCase(store, () => identity.may.value.readCases, window.location.origin);
-  new Surroundings(store, scene, new MeshLoader(), () => identity.may.value.readCases, window.location.origin);
+  const seesSurroundings = () => identity.may.value.readCases && scene.toolQuality.full.value;
+  new Surroundings(store, scene, new MeshLoader(), seesSurroundings, window.location.origin);
   const alarms = new Alarms(store);
   const sound = new Sound(store, async () => (await import('./sound/sound_output')).SoundOutput.open());
   const latency = measureLatency(store, practiceStore, scene);

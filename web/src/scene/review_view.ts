@@ -4,6 +4,7 @@ import { deviationMm, scaleOf } from '../state/review/deviation_scale';
 import { headsetMessage } from './headset_text';
 import type { ReviewSession } from '../state/review/review_session';
 import type { ReviewSettings } from '../state/review/review_settings';
+import { toolAction } from '../state/tool_action';
 import type { SortedSurface } from '../wire/surface_worker';
 import { pickBone } from './bone_picker';
 import { DeviationSurface } from './deviation_surface';
@@ -45,6 +46,7 @@ export class ReviewView {
       effect(() => {
         if (scene.headset.worn.value) scene.headset.show(headsetMessage(store));
       }),
+      effect(() => scene.setToolAction(toolAction(store.telemetry.value, store.upToDate.value))),
       effect(() => scene.setTouching(store.touching.value)),
       effect(() => scene.setBonePose(store.telemetry.value?.worldFromBoneRest ?? null)),
       // Its glass would change the colours of a map.

@@ -14,6 +14,7 @@ import {
 import type { ScreenAxes } from '../practice/gamepad_hand';
 import { type Beside, PlanFrame, type Ray } from '../practice/plan_frame';
 import type { SteeredView } from '../practice/pointer_hand';
+import type { ToolAction } from '../state/tool_action';
 import { plainView, type ViewChoices } from '../state/view_settings';
 import type { Hello, MeshDelta, Pose, ToolMesh } from '../wire/messages';
 import type { Surface } from '../wire/ply';
@@ -29,6 +30,7 @@ import type { Eye } from './shared_eye';
 import { drawsInSoftware } from './software_drawing';
 import { SurgeonCamera } from './surgeon_camera';
 import { SurroundingsView } from './surroundings_view';
+import { ToolQuality } from './tool_quality';
 import { ToolView } from './tool_view';
 
 /** Beyond this the eye gains little and a tablet loses much. */
@@ -44,11 +46,13 @@ export class BoneScene implements SteeredView {
   /** The browser has taken the picture away; it is drawn anew when it is given back. */
   readonly lost: ReadonlySignal<boolean>;
   readonly headset: Headset;
+  readonly toolQuality: ToolQuality;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly bone = new BoneView(() => this.invalidate());
   private readonly surroundings = new SurroundingsView();
-  private readonly tool = new ToolView();
+  private readonly tool = new ToolView(window.matchMedia('(prefers-reduced-motion: reduce)'));
+  private toolMoves = false;
   private readonly aim = new AimView();
   private readonly lights: OperatingLights;
   private readonly orbit: OrbitCamera;
@@ -70,7 +74,9 @@ export class BoneScene implements SteeredView {
 
   /** Throws where the browser offers no WebGL. */
   constructor() {
-    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !drawsInSoftware(), alpha: true });
+    const software = drawsInSoftware();
+    this.toolQuality = new ToolQuality(software);
+    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !software, alpha: true });
     this.renderer.toneMapping = NeutralToneMapping;
     this.renderer.toneMappingExposure = 1.05;
     this.renderer.localClippingEnabled = true;
@@ -115,6 +121,7 @@ export class BoneScene implements SteeredView {
     this.headset.dispose();
     this.bone.dispose();
     this.surroundings.dispose();
+    this.tool.dispose();
     this.renderer.dispose();
     this.renderer.forceContextLoss();
   }
@@ -199,6 +206,12 @@ export class BoneScene implements SteeredView {
     this.invalidate();
   }
 
+  /** What the reamer does; null: it rests. */
+  setToolAction(action: ToolAction | null): void {
+    this.tool.setAction(action);
+    this.invalidate();
+  }
+
   setToolShown(shown: boolean): void {
     this.tool.setShown(shown);
     this.invalidate();
@@ -207,6 +220,7 @@ export class BoneScene implements SteeredView {
   /** What of the bone is seen and from where. In theatre the reamer hides what is behind it, and no plan is drawn. */
   setView(choices: ViewChoices, theatre: boolean): void {
     this.choices = choices;
+    this.toolQuality.choose(choices.toolDrawing);
     this.opaqueTool = theatre;
     this.aim.setWanted(!theatre);
     this.bone.paint.setWanted(choices.boneKinds);
@@ -255,7 +269,9 @@ export class BoneScene implements SteeredView {
     const beganMs = performance.now();
     const worn = this.headset.worn.peek();
     const camera = worn ? this.headset.camera : this.orbit.camera;
-    const moving = this.surgeon.step(Math.min((beganMs - this.drawnAtMs) / 1000, longestStepS));
+    const seconds = Math.min((beganMs - this.drawnAtMs) / 1000, longestStepS);
+    const moving = this.surgeon.step(seconds);
+    if (this.toolMoves) this.toolQuality.drawnAfter(beganMs - this.drawnAtMs);
     this.drawnAtMs = beganMs;
     if (!worn) camera.updateMatrixWorld();
     this.lights.follow(camera);
@@ -263,12 +279,14 @@ export class BoneScene implements SteeredView {
     const cuts = this.cuts(camera);
     this.bone.setLook(seenThrough ? this.choices.opacity : 1, cuts);
     this.surroundings.cut(cuts);
-    this.tool.setLook(this.opaqueTool ? 'steel' : seenThrough ? 'throughBone' : 'glass');
+    const look = this.opaqueTool ? 'steel' : seenThrough ? 'throughBone' : 'glass';
+    this.tool.setLook(look, this.toolQuality.full.peek(), cuts.length === 0);
+    this.toolMoves = this.tool.step(seconds);
     if (seenThrough) this.drawSeenThrough(cuts, camera);
     else this.renderer.render(this.scene, camera);
     ++this.drawn;
     this.onDrawn();
-    if (moving && !worn) this.invalidate();
+    if ((moving || this.toolMoves) && !worn) this.invalidate();
   }
 
   /** Through the nearest bone the reamer is seen, but none of the bone behind. */

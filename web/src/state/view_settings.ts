@@ -14,6 +14,10 @@ export interface Section {
 export const sectionReachMm = 40;
 export const opacityLeast = 0.1;
 
+/** In full the reamer is an instrument that turns; plain it is see-through and costs less to draw. */
+export const toolDrawings = ['automatic', 'full', 'plain'] as const;
+export type ToolDrawing = (typeof toolDrawings)[number];
+
 /** How somebody wants to see the bone. */
 export interface ViewChoices {
   /** One's own view, or the surgeon's at the beach chair, which follows the reamer. */
@@ -25,6 +29,7 @@ export interface ViewChoices {
   /** Of a bone that is seen through, 0 to 1. */
   opacity: number;
   sections: Record<SectionName, Section>;
+  toolDrawing: ToolDrawing;
 }
 
 const section: Section = { on: false, offsetMm: 0, flipped: false };
@@ -35,6 +40,7 @@ export const plainView: ViewChoices = {
   seeThrough: false,
   opacity: 0.4,
   sections: { axial: section, coronal: section, sagittal: section },
+  toolDrawing: 'automatic',
 };
 /** All that a surgeon sees in theatre. */
 export const theatreView: ViewChoices = { ...plainView, camera: 'trainee' };
@@ -46,7 +52,10 @@ export class ViewSettings {
   readonly choices = signal<ViewChoices>(plainView);
   /** Nothing but the bone and an opaque reamer is seen, from where the surgeon stands. */
   readonly theatre = signal(false);
-  readonly shown = computed(() => (this.theatre.value ? theatreView : this.choices.value));
+  readonly shown = computed(() => {
+    const { toolDrawing } = this.choices.value;
+    return this.theatre.value ? { ...theatreView, toolDrawing } : this.choices.value;
+  });
 
   change(part: Partial<ViewChoices>): void {
     this.choices.value = { ...this.choices.peek(), ...part };
@@ -84,6 +93,7 @@ export function viewFromText(text: string | null): ViewChoices {
     seeThrough: kept.seeThrough === true,
     opacity: limited(numberOr(kept.opacity, plainView.opacity), opacityLeast, 1),
     sections: sections as Record<SectionName, Section>,
+    toolDrawing: toolDrawings.find((one) => one === kept.toolDrawing) ?? plainView.toolDrawing,
   };
 }
 

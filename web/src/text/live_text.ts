@@ -22,8 +22,13 @@ export const liveText = {
   headsetNotLive: 'Not live: waiting for the server',
   headsetDepth: (now: string, planned: string) => `${now} of ${planned} mm`,
   sections: 'Sections',
-  sectionsHint: 'Planes that cut the bone, and how much it lets through.',
+  sectionsHint: 'Planes that cut the bone, how much it lets through, and how the reamer is drawn.',
   boneOpacity: 'Bone',
+  toolDrawing: 'Picture',
+  toolDrawingHint:
+    'Full: the reamer is steel, turns and throws chips, and the rest of the scapula is drawn. Plain: less work for the computer.',
+  toolDrawingNamed: { automatic: 'Automatic', full: 'Full', plain: 'Plain' },
+  toolDrawnNow: (full: boolean) => `Automatic (${full ? 'full' : 'plain'} now)`,
   opacityValue: (percent: string) => `${percent} % opaque`,
   section: { axial: 'Axial', coronal: 'Coronal', sagittal: 'Sagittal' },
   sectionCuts: {

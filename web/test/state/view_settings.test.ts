@@ -55,6 +55,18 @@ describe('what the picture shows', () => {
     expect(view.shown.value.cutAway).toBe(true);
   });
 
+  it('keeps how the reamer is drawn, also in theatre', () => {
+    const disk = storage();
+    const view = new ViewSettings();
+    view.keepFor('anna', disk)();
+    expect(view.shown.value.toolDrawing).toBe('automatic');
+    view.change({ toolDrawing: 'plain' });
+    view.theatre.value = true;
+    expect(view.shown.value).toEqual({ ...theatreView, toolDrawing: 'plain' });
+    expect(viewFromText('{"toolDrawing":"full"}').toolDrawing).toBe('full');
+    expect(viewFromText('{"toolDrawing":"gold"}').toolDrawing).toBe('automatic');
+  });
+
   it('goes on without a place to keep anything', () => {
     const view = new ViewSettings();
     const setItem = () => {

@@ -1,6 +1,6 @@
 import '../../styles/scene_tools.css';
 
-import { signal } from '@preact/signals';
+import { type ReadonlySignal, signal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
 
 import { liveText } from '../../text/live_text';
@@ -9,6 +9,7 @@ import {
   sectionNames,
   sectionReachMm,
   type SectionName,
+  toolDrawings,
   type ViewSettings,
 } from '../../state/view_settings';
 import { contactColour, kindColours } from '../../scene/bone_paint';
@@ -22,8 +23,14 @@ const open = signal(false);
 /** The section that the keys move. */
 const keyed = signal<SectionName>('axial');
 
+interface Parts {
+  view: ViewSettings;
+  /** Whether the reamer is drawn in full now. */
+  toolInFull: ReadonlySignal<boolean>;
+}
+
 /** What the picture shows: the camera, and how the bone is seen. All of it also by keys. */
-export function SceneTools({ view }: { view: ViewSettings }) {
+export function SceneTools({ view, toolInFull }: Parts) {
   const keys = useMemo(
     () => Object.fromEntries(Object.entries(actions).map(([key, action]) => [key, () => action(view)])),
     [view],
@@ -74,7 +81,7 @@ export function SceneTools({ view }: { view: ViewSettings }) {
       >
         {liveText.sections}
       </button>
-      {open.value && <SectionsPanel view={view} />}
+      {open.value && <SectionsPanel view={view} toolInFull={toolInFull} />}
       {boneKinds && !open.value && <KindsLegend />}
     </>
   );
@@ -99,7 +106,7 @@ function KindsLegend() {
   );
 }
 
-function SectionsPanel({ view }: { view: ViewSettings }) {
+function SectionsPanel({ view, toolInFull }: Parts) {
   const { opacity, seeThrough } = view.choices.value;
   const percent = fixed(opacity * 100, 0);
   return (
@@ -133,6 +140,7 @@ function SectionsPanel({ view }: { view: ViewSettings }) {
       {sectionNames.map((name, i) => (
         <SectionRow key={name} view={view} name={name} letter={String(i + 1)} />
       ))}
+      <ToolDrawingRow view={view} toolInFull={toolInFull} />
     </div>
   );
 }
@@ -183,6 +191,33 @@ function SectionRow({ view, name, letter }: { view: ViewSettings; name: SectionN
         ⇅
       </button>
     </div>
+  );
+}
+
+/** How the reamer is drawn, and what `automatic` has come to. */
+function ToolDrawingRow({ view, toolInFull }: Parts) {
+  const chosen = view.choices.value.toolDrawing;
+  return (
+    <label class="section-row tool-drawing" title={liveText.toolDrawingHint}>
+      <span>{liveText.toolDrawing}</span>
+      <select
+        data-testid="tool-drawing"
+        value={chosen}
+        onChange={(event) => {
+          const { value } = event.currentTarget;
+          const toolDrawing = toolDrawings.find((one) => one === value);
+          if (toolDrawing !== undefined) view.change({ toolDrawing });
+        }}
+      >
+        {toolDrawings.map((one) => (
+          <option key={one} value={one}>
+            {one === 'automatic' && chosen === one
+              ? liveText.toolDrawnNow(toolInFull.value)
+              : liveText.toolDrawingNamed[one]}
+          </option>
+        ))}
+      </select>
+    </label>
   );
 }
 

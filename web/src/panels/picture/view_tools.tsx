@@ -15,7 +15,7 @@ const views: readonly (readonly [ViewName, string])[] = [
 ];
 
 interface Parts {
-  scene: Pick<BoneScene, 'look' | 'headset' | 'enterHeadset'>;
+  scene: Pick<BoneScene, 'look' | 'headset' | 'enterHeadset' | 'toolQuality'>;
   view: ViewSettings;
   reamerShown: Signal<boolean>;
   children?: ComponentChildren;
@@ -38,7 +38,7 @@ export function ViewTools({ scene, view, reamerShown, children }: Parts) {
           {label}
         </button>
       ))}
-      <SceneTools view={view} />
+      <SceneTools view={view} toolInFull={scene.toolQuality.full} />
       {children}
       <HeadsetButton headset={scene.headset} putOn={() => scene.enterHeadset()} />
       <ReamerChoice shown={reamerShown} />

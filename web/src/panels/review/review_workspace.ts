@@ -70,7 +70,13 @@ export class ReviewWorkspace {
     session.start();
     const mayRead = () => this.may.readCases;
     const liveCase = new LiveCase(session.store, mayRead, this.origin);
-    const surroundings = new Surroundings(session.store, view.scene, new MeshLoader(), mayRead, this.origin);
+    const surroundings = new Surroundings(
+      session.store,
+      view.scene,
+      new MeshLoader(),
+      () => mayRead() && view.scene.toolQuality.full.value,
+      this.origin,
+    );
     const close = () => {
       surroundings.dispose();
       session.dispose();

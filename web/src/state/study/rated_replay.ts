@@ -6,6 +6,7 @@ import type { Replay } from '../../wire/rest_types';
 import { WorkerStreamSocket } from '../../wire/stream_socket';
 import { ReplayPlayer } from '../review/replay_player';
 import { Store } from '../store';
+import { toolAction } from '../tool_action';
 
 /** A recording that a rater watches, without anything that says whose it is. */
 export class RatedReplay {
@@ -36,6 +37,7 @@ export class RatedReplay {
     );
     this.stops.push(
       effect(() => scene.setToolPose(store.telemetry.value?.worldFromTool ?? null)),
+      effect(() => scene.setToolAction(toolAction(store.telemetry.value, store.upToDate.value))),
       effect(() => scene.setTouching(store.touching.value)),
       effect(() => scene.setBonePose(store.telemetry.value?.worldFromBoneRest ?? null)),
     );
