@@ -8,6 +8,7 @@ import type { Store } from '../../state/store';
 import { type Astray, stepNames } from '../../state/tutorial';
 import type { Tutorial } from '../../state/tutorial_guide';
 import type { Watcher } from '../../state/watcher';
+import { appText } from '../../text/app_text';
 import { fixed } from '../../text/format';
 import { tutorialText } from '../../text/tutorial_text';
 import { Button } from '../common/button';
@@ -111,7 +112,9 @@ function NextThing({ store, tutorial }: Pick<Parts, 'store' | 'tutorial'>) {
       <p class="tutorial-do" data-testid="tutorial-do">
         <Named text={todo} />
       </p>
-      <p class="tutorial-why">{name === null ? tutorialText.closingWhy : tutorialText.why[name]}</p>
+      {tutorial.astray.value === null && (
+        <p class="tutorial-why">{name === null ? tutorialText.closingWhy : tutorialText.why[name]}</p>
+      )}
     </>
   );
 }
@@ -145,7 +148,7 @@ function Buttons({ store, watcher, tutorial, toPicture }: Omit<Parts, 'practice'
         disabled={busy}
         onClick={() => void tutorial.again()}
       >
-        {tutorialText.again}
+        {busy ? appText.starting : tutorialText.again}
       </Button>
       {name === null && session !== null && (
         <a class="plain-button" href={addressOfRoute({ kind: 'review', id: session, beside: null })}>
