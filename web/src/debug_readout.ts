@@ -6,6 +6,7 @@ import type { Latency } from './state/latency';
 import type { PracticeStore } from './state/practice_store';
 import type { Sound } from './state/sound';
 import type { Store } from './state/store';
+import { toolOnPlan } from './state/tool_on_plan';
 
 /** What browser tests read as `window.__ream`; a snapshot at each reading. */
 export interface DebugReadout {
@@ -86,7 +87,6 @@ export function publishDebugReadout({ store, practice, scene, sound, latency }: 
 
 function toolDepthMm(store: Store): number | null {
   const hello = store.hello.value;
-  const at = store.telemetry.value?.worldFromTool?.translationMm;
-  if (hello === null || at === undefined) return null;
-  return hello.axisDirection.reduce((sum, unit, i) => sum + unit * ((at[i] ?? 0) - (hello.axisEntryMm[i] ?? 0)), 0);
+  const telemetry = store.telemetry.value;
+  return hello === null || telemetry === null ? null : (toolOnPlan(hello, telemetry)?.depthMm ?? null);
 }

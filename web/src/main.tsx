@@ -26,6 +26,7 @@ import { FeelWatch } from './state/study/feel_watch';
 import { theatreHere } from './state/theatre';
 import { theme } from './state/theme';
 import { toolAction } from './state/tool_action';
+import { Tutorial, type TutorialParts } from './state/tutorial_guide';
 import { ViewSettings } from './state/view_settings';
 import { linkInAddress, takeLinkFromAddress } from './state/watch_link';
 import { Surroundings } from './state/surroundings';
@@ -62,6 +63,7 @@ function main(root: HTMLElement): void {
     (id) => api.deviceUrl(id),
   );
   letGoWhenLeft(practice);
+  practiceStore.input.listen(window, window.matchMedia('(pointer: coarse)').matches);
   effect(() => {
     if (scene.lost.value && practiceStore.sessionId.peek() !== null) untracked(() => practice.letGo());
   });
@@ -87,7 +89,8 @@ function main(root: HTMLElement): void {
   const inTheatre = theatreHere(store, practiceStore, route);
   effect(() => void (view.theatre.value = inTheatre.value));
   effect(() => scene.setView(view.shown.value, view.theatre.value));
-  keepViewForPerson(identity, view);
+  const tutorial = makeTutorial({ store, watcher, practice, practiceStore }, scene, view);
+  keepForPerson(identity, view, tutorial);
   effect(() => scene.setAim(practiceStore.plan.value, practiceStore.hand.place.value));
   render(
     <App
@@ -105,6 +108,7 @@ function main(root: HTMLElement): void {
         theatreWanted: signal(false),
         practice,
         practiceStore,
+        tutorial,
         feel: watchForFeel(identity, { store, practice: practiceStore, route }),
       }}
       identity={identity}
@@ -187,13 +191,22 @@ function measureLatency(store: Store, practice: PracticeStore, scene: BoneScene)
   return latency;
 }
 
-/** How somebody wants to see the bone stays with that person, on a server without users with the browser. */
-function keepViewForPerson(identity: Identity, view: ViewSettings): void {
+function makeTutorial(parts: Omit<TutorialParts, 'view'>, scene: BoneScene, view: ViewSettings): Tutorial {
+  const reset = () => {
+    view.change({ camera: 'own' });
+    scene.look('plan');
+  };
+  return new Tutorial({ ...parts, view: { eye: () => scene.eye(), reset } });
+}
+
+/** How somebody wants to see the bone, and who knows the tutorial; on a server without users both are the browser's. */
+function keepForPerson(identity: Identity, view: ViewSettings, tutorial: Tutorial): void {
   let end: () => void = () => undefined;
   effect(() => {
     const person = identity.userId.value ?? 'anyone';
     end();
     end = untracked(() => view.keepFor(person, window.localStorage));
+    untracked(() => tutorial.keepFor(person, window.localStorage));
   });
 }
 

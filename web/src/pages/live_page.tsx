@@ -15,6 +15,7 @@ import { AnnotationsPanel } from '../panels/live/annotations_panel';
 import { ReplayPanel } from '../panels/live/replay_panel';
 import { RunPanel } from '../panels/live/run_panel';
 import { SessionList } from '../panels/live/session_list';
+import { TutorialPanel } from '../panels/live/tutorial_panel';
 import type { BoneScene } from '../scene/scene';
 import type { Alarms } from '../state/alarms';
 import type { Latency } from '../state/latency';
@@ -24,6 +25,7 @@ import type { Practice } from '../state/practice';
 import type { PracticeStore } from '../state/practice_store';
 import type { Sound } from '../state/sound';
 import type { Store } from '../state/store';
+import type { Tutorial } from '../state/tutorial_guide';
 import type { FeelWatch } from '../state/study/feel_watch';
 import type { ViewSettings } from '../state/view_settings';
 import type { Watcher } from '../state/watcher';
@@ -44,37 +46,33 @@ export interface LivePageParts {
   theatreWanted: Signal<boolean>;
   practice: Practice;
   practiceStore: PracticeStore;
+  tutorial: Tutorial;
   feel: FeelWatch;
 }
 
 /** One session, live or as it was recorded: picture, force, numbers, and what can be done. */
 export function LivePage(parts: LivePageParts) {
-  const { store, watcher, scene, view, liveCase, alarms, sound, latency, practice, practiceStore, theatreWanted } =
-    parts;
+  const { store, watcher, scene, view, liveCase, alarms, sound, latency, practice, practiceStore, tutorial } = parts;
   const bar = store.replaying.value ? 'page-replay' : practiceStore.steering.value ? 'page-practice' : '';
+  const toPicture = () => scene.canvas.focus({ preventScroll: true });
   return (
     <div class={`page ${bar}`}>
       <Header store={store} />
-      <Picture store={store} practice={practiceStore} scene={scene} view={view} alarms={alarms}>
+      {tutorial.session.value !== null && (
+        <TutorialPanel {...{ store, watcher, tutorial }} practice={practiceStore} toPicture={toPicture} />
+      )}
+      <Picture {...{ store, scene, view, alarms }} practice={practiceStore} guided={tutorial.session.value !== null}>
         <LiveStrip store={store} practice={practiceStore} latency={latency} sound={sound} slicesOpen={slicesOpen} />
         {slicesOpen.value &&
           slices.show(({ LiveSlicesPanel }) => <LiveSlicesPanel store={store} liveCase={liveCase} />)}
       </Picture>
       {store.replaying.value && <PlaybackBar store={store} player={watcher} />}
-      {practiceStore.steering.value && (
-        <PracticeBar practice={practiceStore} toPicture={() => scene.canvas.focus({ preventScroll: true })} />
-      )}
+      {practiceStore.steering.value && <PracticeBar practice={practiceStore} toPicture={toPicture} />}
       <aside class={store.upToDate.value ? 'side' : 'side stale'}>
         {store.replaying.value ? (
           <ReplayPanel store={store} watcher={watcher} />
         ) : (
-          <RunPanel
-            store={store}
-            watcher={watcher}
-            practice={practice}
-            practiceStore={practiceStore}
-            theatreWanted={theatreWanted}
-          />
+          <RunPanel {...{ store, watcher, practice, practiceStore, tutorial }} theatreWanted={parts.theatreWanted} />
         )}
         <ProblemBanner store={store} />
         <div class="readings">

@@ -6,6 +6,7 @@ import type { SteeredView } from './pointer_hand';
 const placeMmPerS = 8;
 const leanDegPerS = 10;
 const turnPx = 24;
+const zoomPerPress = 1.1;
 
 type Arrow = 'ArrowLeft' | 'ArrowRight' | 'ArrowUp' | 'ArrowDown';
 const arrows: Record<Arrow, readonly [right: number, up: number]> = {
@@ -18,7 +19,7 @@ const arrows: Record<Arrow, readonly [right: number, up: number]> = {
 /**
  * Keys while the picture has the focus: arrows place the tool, with Shift they lean it, with Ctrl they turn the view;
  * space pushes, B or Backspace withdraws, S is the spindle, I irrigates, P rests the session, plus and minus change how hard a push is,
- * Home puts the tool back onto the plan.
+ * Page up and Page down zoom, Home puts the tool back onto the plan.
  */
 export class KeyHand {
   private readonly down = new Map<Arrow, 'place' | 'lean'>();
@@ -57,6 +58,10 @@ export class KeyHand {
   private onDown(event: KeyboardEvent): boolean {
     if (isArrow(event.key)) return this.onArrow(event, event.key);
     if (event.ctrlKey) return false;
+    if (event.key === 'PageUp' || event.key === 'PageDown') {
+      this.view.zoomBy(event.key === 'PageUp' ? 1 / zoomPerPress : zoomPerPress);
+      return true;
+    }
     const action = this.action(event.key);
     if (action === null) return false;
     this.hand.takeHold();

@@ -18,6 +18,7 @@ export const hotC = 56;
 const holdsTicks = 1500;
 /** Older entries of a batch are history, which a jump of a replay sends first. */
 const freshTicks = 250;
+const bounceTicks = 500;
 
 export interface Alarm {
   kind: 'thrust' | 'depth' | 'vault' | 'heat';
@@ -46,6 +47,20 @@ export class ThrustWatch {
   }
 }
 
+/** Whether the reamer is on bone; one that bounces while it cuts counts as being there. Ticks are those of the session. */
+export class TouchWatch {
+  private lastTick: number | null = null;
+
+  take({ tick, densityGCc }: Pick<Telemetry, 'tick' | 'densityGCc'>): boolean {
+    if (densityGCc > 0) this.lastTick = tick;
+    return this.lastTick !== null && this.lastTick <= tick && tick - this.lastTick < bounceTicks;
+  }
+
+  clear(): void {
+    this.lastTick = null;
+  }
+}
+
 /** Past the plan, or null. */
 export function pastPlanMm(depthMm: number, plannedMm: number): number | null {
   const pastMm = depthMm - plannedMm;
@@ -64,16 +79,22 @@ const none: readonly Alarm[] = [];
 /** What the person at the reamer should stop doing. Nothing while what is known is not of this moment. */
 export class Alarms {
   private readonly thrustN = signal<number | null>(null);
+  private readonly touching = signal(false);
   readonly now = computed((): readonly Alarm[] => (this.store.upToDate.value ? this.all() : none));
 
   constructor(private readonly store: Store) {
     const watch = new ThrustWatch();
+    const touch = new TouchWatch();
     let session = '';
     effect(() => {
       const of = `${store.hello.value?.sessionId ?? ''} ${store.playback.value?.jump ?? ''}`;
-      if (of !== session) watch.clear();
+      if (of !== session) {
+        watch.clear();
+        touch.clear();
+      }
       session = of;
       const telemetry = store.telemetry.value;
+      this.touching.value = telemetry !== null && touch.take(telemetry);
       this.thrustN.value = telemetry === null ? null : watch.take(telemetry);
     });
   }
@@ -86,7 +107,9 @@ export class Alarms {
       found.push({ kind: 'thrust', level: newtons > extremeThrustN ? 'bad' : 'warn', value: newtons });
     const { telemetry, hello, metrics } = this.store;
     const pastMm = pastPlanMm(telemetry.value?.depthMm ?? NaN, hello.value?.plannedDepthMm ?? 0);
-    if (pastMm !== null) found.push({ kind: 'depth', level: pastMm > farPastMm ? 'bad' : 'warn', value: pastMm });
+    // The bone stays gone: what is told is to stop and to withdraw, until that is done.
+    if (pastMm !== null && moving && this.touching.value)
+      found.push({ kind: 'depth', level: pastMm > farPastMm ? 'bad' : 'warn', value: pastMm });
     const surfaceC = telemetry.value?.surfaceTemperatureC ?? null;
     const heat = heatLevel(surfaceC);
     if (surfaceC !== null && heat !== null && moving) found.push({ kind: 'heat', level: heat, value: surfaceC });

@@ -136,7 +136,10 @@ export class Practice {
     batch(() => {
       this.practice.gamepad.value = gamepad !== null;
       this.keys.step(seconds);
-      if (this.pad.step(gamepad, seconds, this.view.screenAxes(plan))) hand.takeHold();
+      if (this.pad.step(gamepad, seconds, this.view.screenAxes(plan))) {
+        hand.takeHold();
+        this.practice.input.take('gamepad');
+      }
       if (!this.window.attended()) hand.letGo();
       hand.step(seconds);
     });

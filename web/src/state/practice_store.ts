@@ -1,6 +1,7 @@
 import { computed, signal } from '@preact/signals';
 
 import { Hand } from '../practice/hand';
+import { LastInput } from '../practice/last_input';
 import { PlanFrame } from '../practice/plan_frame';
 import type { Feedback } from '../wire/device_messages';
 import type { DeviceLinkState } from '../wire/device_link';
@@ -9,6 +10,8 @@ import type { Store } from './store';
 /** What the page knows of the session that is steered here. Written by the practice and the hand, read by panels. */
 export class PracticeStore {
   readonly hand = new Hand();
+  /** What the person used last. */
+  readonly input = new LastInput();
   /** The session that this page steers. */
   readonly sessionId = signal<string | null>(null);
   /** The one that it steered last. */

@@ -54,6 +54,8 @@ export class Store {
 
   /** All sessions that the server knows, newest first. */
   readonly sessions = signal<readonly Session[]>([]);
+  /** The server has said which there are. */
+  readonly sessionsKnown = signal(false);
   /** The replay that is to be watched; null: what is live. */
   readonly replayId = signal<string | null>(null);
   /** Where the watched replay stands; null while none is watched. */

@@ -360,7 +360,10 @@ export class Watcher {
     const requestedMs = Date.now();
     try {
       const sessions = await Promise.race([this.api.sessions(), noAnswerAfter(answerWithinMs)]);
-      this.store.sessions.value = sessions;
+      batch(() => {
+        this.store.sessions.value = sessions;
+        this.store.sessionsKnown.value = true;
+      });
       return sessions;
     } catch (error) {
       const silent = !this.sendsAllTheTime() && (this.store.lastMessageMs.value ?? 0) <= requestedMs;

@@ -232,7 +232,7 @@ export const appText = {
     ['How hard', 'wheel; + and −'],
     ['Lean', 'Alt and drag; Shift and arrows'],
     ['Turn view', 'middle button, or Ctrl and drag'],
-    ['Zoom', 'Ctrl and wheel'],
+    ['Zoom', 'Ctrl and wheel; Page up and Page down'],
     ['Irrigate', 'button; I'],
     ['Back to plan', 'Home'],
     ['Gamepad', 'sticks aim and lean, triggers push and withdraw, A spindle, B pause'],
@@ -310,7 +310,7 @@ export const appText = {
   deviceRtt: 'There and back',
 
   practiceLabel:
-    'Bone and reamer; you steer the reamer. Arrow keys aim, with Shift they lean the reamer, with Control they turn the view. Space pushes, B withdraws, S switches the spindle, I irrigates, P pauses, plus and minus change how hard a push is, Home goes back to the plan.',
+    'Bone and reamer; you steer the reamer. Arrow keys aim, with Shift they lean the reamer, with Control they turn the view. Space pushes, B withdraws, S switches the spindle, I irrigates, P pauses, plus and minus change how hard a push is, Page up and Page down zoom, Home goes back to the plan.',
   sceneLabel:
     'Bone and reamer in three dimensions. Drag or use the arrow keys to turn, plus and minus to zoom, Home to reset.',
 };

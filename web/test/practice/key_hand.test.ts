@@ -47,6 +47,15 @@ describe('KeyHand', () => {
     expect(hand.place.value.anterior).toBe(anterior);
   });
 
+  it('zooms by Page up and Page down, and takes hold of nothing by that', () => {
+    hand.letGo();
+    expect(surface.fire('keydown', { key: 'PageUp' })).toBe(true);
+    expect(surface.fire('keydown', { key: 'PageDown' })).toBe(true);
+    expect(view.zoomed[0]).toBeLessThan(1);
+    expect(view.zoomed[1]).toBeGreaterThan(1);
+    expect(hand.held.value).toBe(false);
+  });
+
   it('pushes by space and withdraws by B or Backspace while they are down', () => {
     expect(surface.fire('keydown', { key: ' ' })).toBe(true);
     surface.fire('keydown', { key: ' ', repeat: true });

@@ -57,16 +57,45 @@ describe('alarms', () => {
   it('grow from a warning to a bad one', () => {
     const store = liveStore();
     const alarms = new Alarms(store);
-    store.telemetry.value = batch(100, [90], { depthMm: 2.4 });
+    store.telemetry.value = batch(100, [90], { depthMm: 2.4, densityGCc: 1 });
     expect(alarms.now.value.map(({ kind, level }) => `${kind} ${level}`)).toEqual(['thrust warn', 'depth warn']);
-    store.telemetry.value = batch(130, [110], { depthMm: 3.4 });
+    store.telemetry.value = batch(130, [110], { depthMm: 3.4, densityGCc: 1 });
     expect(alarms.now.value.map(({ kind, level }) => `${kind} ${level}`)).toEqual(['thrust bad', 'depth bad']);
+  });
+
+  it('of depth ends once the reamer is withdrawn, though the bone stays gone, and begins again at a touch', () => {
+    const store = liveStore();
+    const alarms = new Alarms(store);
+    const at = (tick: number, densityGCc: number) => {
+      store.telemetry.value = batch(tick, [10], { depthMm: 2.4, densityGCc });
+      return alarms.now.value.map(({ kind }) => kind);
+    };
+    expect(at(100, 1)).toEqual(['depth']);
+    // The reamer bounces on the bone while it cuts.
+    expect(at(300, 0)).toEqual(['depth']);
+    expect(at(400, 1)).toEqual(['depth']);
+    expect(at(901, 0)).toEqual([]);
+    expect(at(5000, 0)).toEqual([]);
+    expect(at(5030, 0.2)).toEqual(['depth']);
+    // A step back in a recording, to before anything was touched.
+    expect(at(50, 0)).toEqual([]);
+  });
+
+  it('of depth, thrust and heat are not told of a session that has ended with the reamer on the bone', () => {
+    const store = liveStore();
+    const alarms = new Alarms(store);
+    store.telemetry.value = batch(100, [90], { depthMm: 2.4, densityGCc: 1, surfaceTemperatureC: 60 });
+    expect(alarms.now.value.map(({ kind }) => kind)).toEqual(['thrust', 'depth', 'heat']);
+    for (const state of ['stopped', 'finished', 'fault', 'interrupted'] as const) {
+      store.sessionState.value = state;
+      expect(alarms.now.value, state).toEqual([]);
+    }
   });
 
   it('are not told of what is not of this moment, nor of the session before', () => {
     const store = liveStore();
     const alarms = new Alarms(store);
-    store.telemetry.value = batch(100, [90], { depthMm: 2.4 });
+    store.telemetry.value = batch(100, [90], { depthMm: 2.4, densityGCc: 1 });
     store.link.value = { kind: 'silent', sinceMs: 0 };
     expect(alarms.now.value).toEqual([]);
     store.link.value = { kind: 'live' };

@@ -23,11 +23,13 @@ interface Parts {
   alarms: Alarms;
   /** Without the tools that change the view. */
   bare?: boolean;
+  /** A tutorial says what to do. */
+  guided?: boolean;
   children?: ComponentChildren;
 }
 
 /** The bone and the reamer, with the view's buttons; dimmed whenever it is not live. */
-export function Picture({ store, practice, scene, view, alarms, bare, children }: Parts) {
+export function Picture({ store, practice, scene, view, alarms, bare, guided, children }: Parts) {
   const place = useRef<HTMLDivElement>(null);
   const may = useIdentity().may.value;
   useEffect(() => {
@@ -60,7 +62,7 @@ export function Picture({ store, practice, scene, view, alarms, bare, children }
           {appText.replayBadge}
         </p>
       )}
-      {steering && bare !== true && <Guide store={store} practice={practice} />}
+      {steering && bare !== true && guided !== true && <Guide store={store} practice={practice} />}
       {lost && store.upToDate.value ? (
         <PictureLost steering={steering} />
       ) : steering && store.upToDate.value ? (

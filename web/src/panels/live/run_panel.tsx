@@ -4,6 +4,7 @@ import { liveText } from '../../text/live_text';
 import type { Practice } from '../../state/practice';
 import type { PracticeStore } from '../../state/practice_store';
 import type { Store } from '../../state/store';
+import type { Tutorial } from '../../state/tutorial_guide';
 import type { Watcher } from '../../state/watcher';
 import { appText } from '../../text/app_text';
 import { SessionControls } from './session_controls';
@@ -16,12 +17,13 @@ interface Parts {
   watcher: Watcher;
   practice: Practice;
   practiceStore: PracticeStore;
+  tutorial: Tutorial;
   /** Whether what is made here is made for theatre. */
   theatreWanted: Signal<boolean>;
 }
 
 /** The things to do, and what the session is doing. */
-export function RunPanel({ store, watcher, practice, practiceStore, theatreWanted }: Parts) {
+export function RunPanel({ store, watcher, practice, practiceStore, tutorial, theatreWanted }: Parts) {
   const may = useIdentity().may.value;
   const reachable = store.link.value.kind === 'live' || store.link.value.kind === 'nothing';
   const active = reachable && store.active.value;
@@ -31,7 +33,7 @@ export function RunPanel({ store, watcher, practice, practiceStore, theatreWante
     <section class="run" aria-label={appText.runDemo}>
       {may.ream && (
         <div class="run-buttons">
-          {!active && <StartButtons {...{ store, watcher, practice, practiceStore, idle, theatreWanted }} />}
+          {!active && <StartButtons {...{ store, watcher, practice, practiceStore, tutorial, idle, theatreWanted }} />}
           <button
             type="button"
             class={active ? 'run-button' : 'run-button run-second'}
@@ -79,7 +81,7 @@ function TheatreChoice({ wanted }: { wanted: Signal<boolean> }) {
 }
 
 /** For pages that watch while another one steers. */
-function TakeOver({ store, practice, practiceStore }: Omit<Parts, 'watcher' | 'theatreWanted'>) {
+function TakeOver({ store, practice, practiceStore }: Omit<Parts, 'watcher' | 'tutorial' | 'theatreWanted'>) {
   const id = store.sessionId.value;
   const details = store.details.value;
   if (id === null || details?.id !== id || details.device.name !== 'browser' || practiceStore.sessionId.value === id)

@@ -2,9 +2,13 @@ import type { Signal } from '@preact/signals';
 
 import type { Practice } from '../../state/practice';
 import type { PracticeStore } from '../../state/practice_store';
+import { hasReamed } from '../../state/newcomer';
 import type { Store } from '../../state/store';
+import type { Tutorial } from '../../state/tutorial_guide';
 import type { Watcher } from '../../state/watcher';
 import { appText } from '../../text/app_text';
+import { tutorialText } from '../../text/tutorial_text';
+import { Button } from '../common/button';
 import { useIdentity } from '../common/site_nav';
 
 interface Parts {
@@ -12,17 +16,19 @@ interface Parts {
   watcher: Watcher;
   practice: Practice;
   practiceStore: PracticeStore;
+  tutorial: Tutorial;
   /** Something can be started now. */
   idle: boolean;
   theatreWanted: Signal<boolean>;
 }
 
 /**
- * What begins a session of one's own. After a session of a study the next attempt in it comes first, so that nobody
+ * What begins a session of one's own. Who has none yet is offered the tutorial first. After a session of a study the next attempt in it comes first, so that nobody
  * leaves a study without knowing.
  */
-export function StartButtons({ store, watcher, practice, practiceStore, idle, theatreWanted }: Parts) {
-  const may = useIdentity().may.value;
+export function StartButtons({ store, watcher, practice, practiceStore, tutorial, idle, theatreWanted }: Parts) {
+  const identity = useIdentity();
+  const may = identity.may.value;
   const last = store.watched.value;
   const { study = null, participant = null } = last ?? {};
   // Staff who only watched somebody train do not go on in that person's place.
@@ -37,6 +43,12 @@ export function StartButtons({ store, watcher, practice, practiceStore, idle, th
     const sessionId = await watcher.practise('demo', theatreWanted.value);
     if (sessionId !== null) practice.steer(sessionId);
   };
+  const newcomer =
+    !inStudy &&
+    tutorial.remembered.value === null &&
+    practiceStore.lastSessionId.value === null &&
+    store.sessionsKnown.value &&
+    !hasReamed(store.sessions.value, { userId: identity.userId.value, teach: may.teach });
   return (
     <>
       {inStudy && (
@@ -52,7 +64,17 @@ export function StartButtons({ store, watcher, practice, practiceStore, idle, th
       )}
       <button
         type="button"
-        class={inStudy ? 'run-button run-second' : 'run-button'}
+        class={newcomer ? 'run-button run-first' : 'run-button run-second run-tutorial'}
+        data-testid="tutorial-start"
+        title={tutorialText.hint}
+        disabled={!idle}
+        onClick={() => void tutorial.start()}
+      >
+        {tutorialText.tutorial}
+      </button>
+      <button
+        type="button"
+        class={inStudy || newcomer ? 'run-button run-second' : 'run-button'}
         data-testid="practise"
         title={inStudy ? appText.practiseOutsideHint : undefined}
         disabled={!idle}
@@ -60,6 +82,11 @@ export function StartButtons({ store, watcher, practice, practiceStore, idle, th
       >
         {inStudy ? appText.practiseOutside : appText.practise}
       </button>
+      {newcomer && (
+        <p class="tutorial-offer" data-testid="tutorial-offer">
+          {tutorialText.offer} <Button onClick={() => tutorial.skip()}>{tutorialText.notNow}</Button>
+        </p>
+      )}
     </>
   );
 }
