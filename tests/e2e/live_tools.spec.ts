@@ -2,7 +2,7 @@
 import { expect, type Page, test } from '@playwright/test';
 
 import { compare, pictureOfBone } from './pixels';
-import { drawn, serverForEachTest, untilLive } from './server_for_each_test';
+import { drawn, readout, serverForEachTest, untilLive } from './server_for_each_test';
 
 const here = serverForEachTest();
 
@@ -79,8 +79,13 @@ test('cuts the bone along the reamer and along the planes of the body, and remem
   const drawing = page.getByTestId('tool-drawing');
   await expect(drawing.locator('option:checked')).toHaveText('Automatic (plain now)');
   const plain = await bone(page);
+  const { triangles } = await readout(page);
   await drawing.selectOption('full');
   await expect.poll(() => changed(page, plain)).toBeGreaterThan(1000);
+  // The rest of the scapula, too: more than the whole reamer has.
+  await expect
+    .poll(async () => (await readout(page)).triangles, { timeout: 30_000 })
+    .toBeGreaterThan(triangles + 30_000);
   await page.screenshot({ path: info.outputPath('full.png') });
 
   await page.reload();
