@@ -6,6 +6,7 @@
 
 #include "case/case.hpp"
 #include "case/landmarks.hpp"
+#include "geometry/triangle_mesh.hpp"
 #include "record/recording.hpp"
 
 namespace ream::session {
