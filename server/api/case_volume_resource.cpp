@@ -72,7 +72,7 @@ std::vector<Route> case_volume_routes() {
   return {{"GET", one + "/volume", reamers, reads("case.ct"), get_volume},
           {"GET", one + "/volume/slices/{axis}/{index}", reamers, reads("case.ct"), get_slice},
           {"GET", one + "/mesh", reamers, reads("case.mesh"), get_case_mesh},
-          {"GET", one + "/surroundings", reamers, reads("case.mesh"), get_surroundings}};
+          {"GET", one + "/surroundings", reamers, reads("case.surroundings"), get_surroundings}};
 }
 
 }  // namespace ream::api

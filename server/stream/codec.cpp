@@ -66,7 +66,7 @@ std::vector<uint8_t> SurfaceClasses::packed(std::span<const surface::BlockVertex
 }
 
 EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t tick, int stride,
-                    const SurfaceClasses* classes, const RemovedBone* removed) {
+                    const SurfaceClasses* classes, std::span<const uint8_t> removed) {
   EncodedBlock result;
   result.block = mesh.block;
   result.revision = revision;
@@ -80,14 +80,22 @@ EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t 
   std::vector<uint32_t> indices(mesh.indices.size());
   meshopt_optimizeVertexCacheFifo(indices.data(), mesh.indices.data(), indices.size(), mesh.vertices.size(),
                                   cache_vertices);
-  std::vector<BlockVertex> vertices(mesh.vertices.size());
-  vertices.resize(meshopt_optimizeVertexFetch(vertices.data(), indices.data(), indices.size(),
-                                              mesh.vertices.data(), mesh.vertices.size(),
-                                              sizeof(BlockVertex)));
+  // In the order in which triangles come to them.
+  std::vector<uint32_t> place(mesh.vertices.size());
+  const size_t count =
+      meshopt_optimizeVertexFetchRemap(place.data(), indices.data(), indices.size(), place.size());
+  meshopt_remapIndexBuffer(indices.data(), indices.data(), indices.size(), place.data());
+  std::vector<BlockVertex> vertices(count);
+  meshopt_remapVertexBuffer(vertices.data(), mesh.vertices.data(), mesh.vertices.size(), sizeof(BlockVertex),
+                            place.data());
   result.vertex_count = static_cast<uint32_t>(vertices.size());
   result.index_count = static_cast<uint32_t>(indices.size());
   if (classes != nullptr) result.classes = classes->packed(vertices, mesh.block, stride);
-  if (removed != nullptr) result.removed = removed->packed(vertices, mesh.block);
+  if (!removed.empty()) {
+    std::vector<uint8_t> levels(count);
+    meshopt_remapVertexBuffer(levels.data(), removed.data(), removed.size(), 1, place.data());
+    result.removed = RemovedBone::packed(levels);
+  }
   result.vertices = encoded(meshopt_encodeVertexBufferBound(vertices.size(), sizeof(BlockVertex)),
                             [&](unsigned char* to, size_t size) {
                               return meshopt_encodeVertexBuffer(to, size, vertices.data(), vertices.size(),

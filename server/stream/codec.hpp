@@ -54,10 +54,10 @@ struct EncodedBlock {
 using SharedBlock = std::shared_ptr<const EncodedBlock>;
 
 /// Reorders vertices and triangles so that they pack well; the surface itself is unchanged. A mesh without
-/// triangles gives an empty block. `classes` and `removed` of the bone that the surface bounds, where they
-/// are wanted.
+/// triangles gives an empty block. `classes` of the bone that the surface bounds, where they are wanted;
+/// `removed`: RemovedBone::levels of the mesh's vertices, or empty.
 EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t tick, int stride = 1,
-                    const SurfaceClasses* classes = nullptr, const RemovedBone* removed = nullptr);
+                    const SurfaceClasses* classes = nullptr, std::span<const uint8_t> removed = {});
 
 /// The surface that was encoded. Error invalid_input for a block that is damaged.
 surface::BlockMesh decode(const EncodedBlock& block);

@@ -21,9 +21,10 @@ REAM_VECTOR_CLONES int max_difference(const uint8_t* a, const uint8_t* b) {
   return largest;
 }
 
-/// Not 0 unless the mesh is empty.
-uint64_t surface_hash(const surface::BlockMesh& mesh) {
+/// Of the mesh and of what is gone at its vertices. Not 0 unless the mesh is empty.
+uint64_t surface_hash(const surface::BlockMesh& mesh, const std::vector<uint8_t>& removed) {
   uint64_t hash = mesh.indices.size();
+  for (const uint8_t level : removed) hash = hash * 0x9e3779b97f4a7c15ull + level;
   for (const surface::BlockVertex& v : mesh.vertices) {
     uint64_t word;
     std::memcpy(&word, &v, sizeof word);
@@ -186,12 +187,13 @@ void MeshPublisher::extract(int max_surfaces) {
       const uint32_t block = level.to_extract[level.next];
       level.is_touched[block] = 0;
       const surface::BlockMesh mesh = level.extractor.extract(replica_.coverage().data(), block);
-      const uint64_t hash = surface_hash(mesh);
+      const std::vector<uint8_t> removed = removed_.levels(mesh.vertices, block);
+      const uint64_t hash = surface_hash(mesh, removed);
       if (hash != 0) left -= whole / (level.stride * level.stride);
       if (hash == std::exchange(level.shown[block], hash)) continue;
-      ready_.push_back(std::make_shared<const EncodedBlock>(
-          encode(mesh, ++level.revision[block], tick_, level.stride,
-                 options_.with_classes ? &classes_ : nullptr, &removed_)));
+      ready_.push_back(
+          std::make_shared<const EncodedBlock>(encode(mesh, ++level.revision[block], tick_, level.stride,
+                                                      options_.with_classes ? &classes_ : nullptr, removed)));
     }
 }
 

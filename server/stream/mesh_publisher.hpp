@@ -64,6 +64,9 @@ class MeshPublisher {
   MeshPublisher(const voxel::BoneModel& bone, Fanout& fanout, MeshPublisherOptions options = {},
                 const std::vector<uint8_t>* before = nullptr);
 
+  MeshPublisher(const MeshPublisher&) = delete;
+  MeshPublisher& operator=(const MeshPublisher&) = delete;
+
   /// A brick as it is now, more bone than before or less.
   void take(const voxel::BrickImage& image, int64_t now_ns);
 

@@ -7,7 +7,7 @@ namespace {
 
 /// Coverage that is lost where a surface has gone half a voxel further in: from full to the surface's level.
 constexpr int64_t whole_loss = 127;
-constexpr size_t vertices_a_byte = 2;
+constexpr size_t levels_a_byte = 2;
 
 }  // namespace
 
@@ -20,18 +20,25 @@ void RemovedBone::keep(uint32_t brick, const uint8_t* before) {
   place_[brick] = static_cast<uint32_t>(before_.size() / voxel::brick_voxels);
 }
 
-std::vector<uint8_t> RemovedBone::packed(std::span<const surface::BlockVertex> vertices,
+std::vector<uint8_t> RemovedBone::levels(std::span<const surface::BlockVertex> vertices,
                                          uint32_t block) const {
   if (before_.empty()) return {};
   const Vec3i origin = layout_.coordinates(block) * surface::block_edge - Vec3i::Ones();
-  std::vector<uint8_t> bytes((vertices.size() + vertices_a_byte - 1) / vertices_a_byte);
+  std::vector<uint8_t> levels;
+  levels.reserve(vertices.size());
   unsigned any = 0;
-  for (size_t i = 0; i < vertices.size(); ++i) {
-    const unsigned level = level_at(vertices[i], origin);
-    any |= level;
-    bytes[i / vertices_a_byte] |= static_cast<uint8_t>(level << (4 * (i % vertices_a_byte)));
+  for (const surface::BlockVertex& vertex : vertices) {
+    levels.push_back(static_cast<uint8_t>(level_at(vertex, origin)));
+    any |= levels.back();
   }
   if (any == 0) return {};
+  return levels;
+}
+
+std::vector<uint8_t> RemovedBone::packed(std::span<const uint8_t> levels) {
+  std::vector<uint8_t> bytes((levels.size() + levels_a_byte - 1) / levels_a_byte);
+  for (size_t i = 0; i < levels.size(); ++i)
+    bytes[i / levels_a_byte] |= static_cast<uint8_t>(levels[i] << (4 * (i % levels_a_byte)));
   return bytes;
 }
 

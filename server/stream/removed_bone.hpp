@@ -13,7 +13,7 @@ namespace ream::stream {
 /// that have changed only. Used by one thread.
 class RemovedBone {
  public:
-  static constexpr int max_level = 15;  ///< of packed(): half a voxel under the first surface or more
+  static constexpr int max_level = 15;  ///< half a voxel under the first surface or more
 
   /// `now` outlives this.
   explicit RemovedBone(const voxel::Replica& now);
@@ -21,9 +21,10 @@ class RemovedBone {
   /// A brick as it was before its first change, brick_voxels bytes; of a brick that is known nothing changes.
   void keep(uint32_t brick, const uint8_t* before);
 
-  /// As MeshBlock.removed of proto/stream.fbs, of vertices of `block` (as surface::BlockLayout numbers them):
-  /// 4 bits each, the first in the lowest; empty where nothing is gone.
-  std::vector<uint8_t> packed(std::span<const surface::BlockVertex> vertices, uint32_t block) const;
+  /// Of vertices of `block` (as surface::BlockLayout numbers them), one each; empty where nothing is gone.
+  std::vector<uint8_t> levels(std::span<const surface::BlockVertex> vertices, uint32_t block) const;
+  /// Levels as MeshBlock.removed of proto/stream.fbs: 4 bits each, the first in the lowest.
+  static std::vector<uint8_t> packed(std::span<const uint8_t> levels);
 
  private:
   struct Sample {

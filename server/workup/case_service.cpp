@@ -27,7 +27,6 @@ constexpr double read_share = 0.8;
 constexpr uint64_t always_taken_bytes = 32 << 20, max_packing = 16;
 constexpr size_t max_id_length = 60;
 constexpr double max_fine_voxels = 2.0e7;  // beyond, a surface is sampled every other voxel
-constexpr double max_fine_surroundings_voxels = 4.0e6;
 
 template <typename T>
 net::Bytes bytes_of(const std::vector<T>& values) {
@@ -173,8 +172,10 @@ jobs::JobRecord CaseService::build(const std::string& id, const ct::BuildSetting
     case_::Case made =
         ct::build_from(workup, *hu, *labels, landmarks(id), settings, part_of(progress, 0.0, read_share));
     progress(read_share, "writing the case");
+    const TriangleMesh around = ct::scapula_around(workup, *hu, *labels, made.bone.grid);
     const std::lock_guard lock(changing_);
     case_::save_bone(made, folder);
+    ct::keep_surroundings(around, made.side, folder);
     ct::save_workup(folder, workup);
     cache_.forget(id);
   });
@@ -275,21 +276,10 @@ std::string CaseService::mesh(const std::string& id) {
 }
 
 std::string CaseService::surroundings(const std::string& id) {
-  const fs::path folder = folder_of(id);
-  if (fs::exists(folder / ct::surroundings_file)) return read_text_file(folder / ct::surroundings_file);
-  if (!fs::exists(folder / "case.json"))
-    throw Error(ErrorKind::conflict, "case '" + id + "' is not built yet");
-  TriangleMesh around;
-  if (ct::has_workup(folder)) {
-    const auto bone = surface_of(id);
-    const bool coarse = static_cast<double>(bone->grid.voxel_count()) > max_fine_surroundings_voxels;
-    const TriangleMesh whole = surface::whole_surface(bone->grid, bone->coverage.data(), 1, coarse ? 2 : 1);
-    around = ct::surroundings_of(whole.transformed(bone->grid.world_from_grid),
-                                 case_::load_case_description(folder));
-  }
-  if (around.triangles.empty())
+  const fs::path file = folder_of(id) / ct::surroundings_file;
+  if (!fs::exists(file))
     throw Error(ErrorKind::not_found, "case '" + id + "' has nothing around the bone that is reamed");
-  return ply_of(around, case_::frame_in_words(side_of(id)));
+  return read_text_file(file);
 }
 
 }  // namespace ream::workup

@@ -58,7 +58,7 @@ class CaseService {
   /// The surface of the case, LPS mm, binary PLY.
   std::string mesh(const std::string& id);
   /// What lies around the bone that is reamed, LPS mm, binary PLY, for pictures. Error not_found when there
-  /// is nothing; conflict when the case is not built yet.
+  /// is nothing.
   std::string surroundings(const std::string& id);
 
  private:

@@ -2,6 +2,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "ct/build/surroundings.hpp"
 #include "ct/read/read_ct.hpp"
 #include "ct/read/write_volume.hpp"
 #include "ct/segment/label_map.hpp"
@@ -67,6 +68,8 @@ void save_imported(const Imported& imported, const std::filesystem::path& folder
   AtomicFolder target(folder, replace);
   write_workup(target.path(), imported.workup, imported.hu, imported.labels);
   case_::save_bone(made, target.path());
+  keep_surroundings(scapula_around(imported.workup, imported.hu, imported.labels, made.bone.grid), made.side,
+                    target.path());
   if (made.plan) case_::save_plan(*made.plan, target.path());
   if (imported.landmarks) case_::save_landmarks(*imported.landmarks, target.path());
   target.commit();

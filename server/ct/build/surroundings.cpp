@@ -2,42 +2,43 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <optional>
 
-#include "case/plan.hpp"
+#include "core/error.hpp"
+#include "core/log.hpp"
 #include "geometry/mesh_io.hpp"
+#include "surface/block_mesh.hpp"
 
 namespace ream::ct {
-
 namespace {
 
 constexpr double overlap_mm = 1.0;
-/// Wider than any reamer of the library, and deeper than any reaming.
+/// Wider than any reamer of the library, and deeper than any reaming; web/src/scene/surroundings_view.ts has
+/// them, too.
 constexpr double reamers_reach_mm = 24.0, reamers_depth_mm = 12.0;
+constexpr double max_fine_voxels = 4.0e6;  // beyond, a CT is sampled every other voxel
 
-/// Whether a place (world) is described by the grid alone.
-class GridsOwn {
- public:
-  explicit GridsOwn(const case_::Case& description)
-      : grid_from_world_(description.bone.grid.world_from_grid.inverse()),
-        box_(description.bone.grid.bounds_mm().grown(-overlap_mm)),
-        plan_(description.plan) {}
-
-  bool holds(const Vec3& world_mm) const { return in_box(world_mm) || in_reach(world_mm); }
-
- private:
-  bool in_box(const Vec3& world_mm) const { return box_.contains(grid_from_world_.point(world_mm)); }
-  bool in_reach(const Vec3& world_mm) const {
-    if (!plan_) return false;
-    const Vec3 axis = plan_->axis_direction.normalized(), from_entry = world_mm - plan_->entry_mm;
-    const double along_mm = from_entry.dot(axis);
-    return along_mm < reamers_depth_mm && (from_entry - along_mm * axis).norm() < reamers_reach_mm;
+/// The mesh without triangles whose corners are all left out, and without corners of no triangle.
+template <typename LeftOut>
+TriangleMesh without(const TriangleMesh& mesh, LeftOut&& left_out) {
+  std::vector<uint8_t> out(mesh.vertices_mm.size());
+  for (size_t i = 0; i < out.size(); ++i) out[i] = left_out(mesh.vertices_mm[i].cast<double>());
+  constexpr uint32_t unused = UINT32_MAX;
+  std::vector<uint32_t> place(out.size(), unused);
+  TriangleMesh rest;
+  for (std::array<uint32_t, 3> triangle : mesh.triangles) {
+    if (std::all_of(triangle.begin(), triangle.end(), [&](uint32_t corner) { return out[corner]; })) continue;
+    for (uint32_t& corner : triangle) {
+      if (place[corner] == unused) {
+        place[corner] = static_cast<uint32_t>(rest.vertices_mm.size());
+        rest.vertices_mm.push_back(mesh.vertices_mm[corner]);
+        if (!mesh.normals.empty()) rest.normals.push_back(mesh.normals[corner]);
+      }
+      corner = place[corner];
+    }
+    rest.triangles.push_back(triangle);
   }
-
-  const Pose grid_from_world_;
-  const Aabb box_;
-  const std::optional<case_::Plan> plan_;
-};
+  return rest;
+}
 
 /// The mean of the triangles around each vertex, by their area.
 std::vector<Vec3f> smooth_normals(const TriangleMesh& mesh) {
@@ -53,35 +54,51 @@ std::vector<Vec3f> smooth_normals(const TriangleMesh& mesh) {
 
 }  // namespace
 
-TriangleMesh surroundings_of(const TriangleMesh& bone_world, const case_::Case& description) {
-  const GridsOwn own(description);
-  std::vector<uint8_t> inside(bone_world.vertices_mm.size());
-  for (size_t i = 0; i < inside.size(); ++i) inside[i] = own.holds(bone_world.vertices_mm[i].cast<double>());
-  constexpr uint32_t unused = UINT32_MAX;
-  std::vector<uint32_t> place(inside.size(), unused);
-  TriangleMesh around;
-  for (std::array<uint32_t, 3> triangle : bone_world.triangles) {
-    if (std::all_of(triangle.begin(), triangle.end(), [&](uint32_t corner) { return inside[corner]; }))
-      continue;
-    for (uint32_t& corner : triangle) {
-      if (place[corner] == unused) {
-        place[corner] = static_cast<uint32_t>(around.vertices_mm.size());
-        around.vertices_mm.push_back(bone_world.vertices_mm[corner]);
-        if (!bone_world.normals.empty()) around.normals.push_back(bone_world.normals[corner]);
-      }
-      corner = place[corner];
-    }
-    around.triangles.push_back(triangle);
-  }
-  return around;
+TriangleMesh surroundings_of(const TriangleMesh& bone_world, const voxel::VoxelGrid& grid) {
+  const Pose grid_from_world = grid.world_from_grid.inverse();
+  const Aabb box = grid.bounds_mm().grown(-overlap_mm);
+  return without(bone_world,
+                 [&](const Vec3& world_mm) { return box.contains(grid_from_world.point(world_mm)); });
+}
+
+TriangleMesh scapula_around(const Workup& workup, const std::vector<int16_t>& hu,
+                            const std::vector<uint8_t>& labels, const voxel::VoxelGrid& grid) {
+  const voxel::BoneModel scapula = scapula_of(workup, hu, labels);
+  const bool coarse = static_cast<double>(scapula.grid.voxel_count()) > max_fine_voxels;
+  const TriangleMesh surface =
+      surface::whole_surface(scapula.grid, scapula.coverage.data(), 1, coarse ? 2 : 1);
+  return surroundings_of(surface.transformed(scapula.grid.world_from_grid), grid);
+}
+
+TriangleMesh beyond_reach(const TriangleMesh& around, const case_::Plan& plan) {
+  const Vec3 axis = plan.axis_direction.normalized();
+  return without(around, [&](const Vec3& world_mm) {
+    const Vec3 from_entry = world_mm - plan.entry_mm;
+    const double along_mm = from_entry.dot(axis);
+    return along_mm < reamers_depth_mm && (from_entry - along_mm * axis).norm() < reamers_reach_mm;
+  });
+}
+
+void keep_surroundings(const TriangleMesh& around, case_::Side side,
+                       const std::filesystem::path& case_folder) {
+  const std::filesystem::path file = case_folder / surroundings_file;
+  if (!around.triangles.empty()) return write_ply(file, around, case_::frame_in_words(side));
+  std::error_code failed;
+  std::filesystem::remove(file, failed);
+  if (failed) throw Error(ErrorKind::io, "cannot remove " + file.string() + ": " + failed.message());
 }
 
 TriangleMesh kept_surroundings(const std::filesystem::path& case_folder) {
   const std::filesystem::path file = case_folder / surroundings_file;
   if (!std::filesystem::exists(file)) return {};
-  TriangleMesh around = load_mesh(file);
-  around.normals = smooth_normals(around);
-  return around;
+  try {
+    TriangleMesh around = load_mesh(file);
+    around.normals = smooth_normals(around);
+    return around;
+  } catch (const Error& e) {
+    log::warn("drawn without what lies around the bone: " + std::string(e.what()));
+    return {};
+  }
 }
 
 }  // namespace ream::ct

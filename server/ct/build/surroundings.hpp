@@ -1,22 +1,36 @@
 #pragma once
 #include <filesystem>
 
-#include "case/case.hpp"
+#include "case/plan.hpp"
+#include "ct/build/ct_workspace.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace ream::ct {
 
-/// Beside case.json where a case has what no CT of its own shows: what lies around its bone, LPS mm.
+/// Beside case.json: what lies around the bone of the case, LPS mm, for pictures. It is of the same
+/// segmentation as the bone.
 inline constexpr const char* surroundings_file = "surroundings.ply";
 
-/// What of a bone's surface (world frame, outward normals) lies around the part that a case's grid holds:
-/// pictures show it beside that part, which the grid alone describes. Triangles are left out that lie in the
-/// grid's box (less a millimetre, so that no gap is seen along its sides), and those that a reamer on the
-/// planned axis may come to, which would look as if it could not cut them. Empty where nothing is left.
-TriangleMesh surroundings_of(const TriangleMesh& bone_world, const case_::Case& description);
+/// What of a bone's surface (world frame, outward normals) lies around the part that a grid holds: triangles
+/// are left out that lie in the grid's box with all corners (less a millimetre, which makes the gap along its
+/// sides narrow). Empty where the box holds all.
+TriangleMesh surroundings_of(const TriangleMesh& bone_world, const voxel::VoxelGrid& grid);
 
-/// What that file of a case's folder holds, with smooth normals; empty where there is none. Errors: those of
-/// load_mesh.
+/// The same of the segmented scapula of a CT, at the CT's resolution or half of it. Error conflict without
+/// one.
+TriangleMesh scapula_around(const Workup& workup, const std::vector<int16_t>& hu,
+                            const std::vector<uint8_t>& labels, const voxel::VoxelGrid& grid);
+
+/// Without triangles that a reamer on the planned axis may come to, which would look as if it could not cut
+/// them: the grid alone describes what is there.
+TriangleMesh beyond_reach(const TriangleMesh& around, const case_::Plan& plan);
+
+/// Writes the file of a case's folder, or removes it where nothing lies around. Throws Error io.
+void keep_surroundings(const TriangleMesh& around, case_::Side side,
+                       const std::filesystem::path& case_folder);
+
+/// What that file holds, with smooth normals; empty where there is none, or, with a warning in the log, where
+/// it is damaged.
 TriangleMesh kept_surroundings(const std::filesystem::path& case_folder);
 
 }  // namespace ream::ct

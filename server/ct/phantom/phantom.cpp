@@ -139,6 +139,10 @@ PhantomType phantom_type_from_text(const std::string& text) {
               "phantom type '" + text + "' must be A1, A2, B2, osteophytes or osteoporotic");
 }
 
+std::string phantom_source(const PhantomParams& params) {
+  return "phantom, random seed " + std::to_string(params.random_seed);
+}
+
 Phantom make_phantom(const PhantomParams& params) {
   check(params);
   const PhantomParams sized = with_its_thickness(params);
@@ -156,7 +160,7 @@ Phantom make_phantom(const PhantomParams& params) {
   volume.spacing_mm = params.spacing_mm;
   const Vec3 origin = phantom.truth.glenoid.centre_mm + params.field_mm.min;
   volume.world_from_volume.translation_mm = origin;
-  volume.source = "phantom, random seed " + std::to_string(params.random_seed);
+  volume.source = phantom_source(params);
   volume.hu.resize(volume.voxel_count());
   const double voxel_mm = params.spacing_mm.minCoeff();
   for (int w = 0; w < volume.dims.z(); ++w)

@@ -75,6 +75,9 @@ struct Phantom {
 /// the same voxels; a left phantom is the mirror image of the right one in x = 0, voxel for voxel.
 Phantom make_phantom(const PhantomParams& params);
 
+/// HuVolume::source of such a phantom, which its cases keep.
+std::string phantom_source(const PhantomParams& params);
+
 /// Apparent density at points of the world, g/cc, before voxels, noise and partial volume; 0 outside the
 /// scapula. The phantom's densities are exact but within a voxel of a border between tissues.
 std::function<double(const Vec3& world_mm)> true_density_g_cc(const PhantomParams& params);

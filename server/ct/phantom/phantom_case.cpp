@@ -1,10 +1,10 @@
 #include "ct/phantom/phantom_case.hpp"
 
 #include "core/error.hpp"
+#include "core/log.hpp"
 #include "ct/build/bone_from_mask.hpp"
 #include "ct/build/import.hpp"
 #include "ct/build/surroundings.hpp"
-#include "geometry/mesh_io.hpp"
 
 namespace ream::ct {
 namespace {
@@ -51,12 +51,22 @@ case_::Case case_of(const Phantom& phantom, const Mask& mask, const std::string&
   return result;
 }
 
-/// The demo's CT shows the glenoid and its vault; the rest of that scapula is for pictures only.
-void write_surroundings(const case_::Case& demo, const std::filesystem::path& folder) {
+/// The demo's CT shows the glenoid and its vault; the rest of that scapula is for pictures only, which do
+/// without it where it cannot be kept.
+void keep_rest_of_scapula(const case_::Case& demo, const std::filesystem::path& folder) {
   PhantomParams whole = phantom_preset("demo").params;
   whole.field_mm = PhantomParams{}.field_mm;
-  const TriangleMesh around = surroundings_of(scapula_surface(whole, surroundings_sample_mm), demo);
-  write_ply(folder / surroundings_file, around, case_::frame_in_words(demo.side));
+  try {
+    keep_surroundings(surroundings_of(scapula_surface(whole, surroundings_sample_mm), demo.bone.grid),
+                      demo.side, folder);
+  } catch (const Error& e) {
+    log::warn(std::string("the demo is shown without what lies around its bone: ") + e.what());
+  }
+}
+
+/// Not somebody's own case of that name.
+bool is_phantom(const case_::Case& demo) {
+  return demo.source == phantom_source(phantom_preset("demo").params);
 }
 
 }  // namespace
@@ -92,7 +102,8 @@ case_::Case load_or_make_demo_case(const std::filesystem::path& data_folder) {
   const auto folder = data_folder / "cases" / "demo";
   if (std::filesystem::exists(folder / "case.json")) {
     case_::Case demo = case_::load_case(folder);
-    if (!std::filesystem::exists(folder / surroundings_file)) write_surroundings(demo, folder);
+    if (is_phantom(demo) && !std::filesystem::exists(folder / surroundings_file))
+      keep_rest_of_scapula(demo, folder);
     return demo;
   }
   const auto [params, upsample] = phantom_preset("demo");
@@ -117,7 +128,7 @@ case_::Case load_or_make_demo_case(const std::filesystem::path& data_folder) {
   demo.hu = std::move(phantom.volume.hu);
   demo.labels = std::move(segmentation.labels);
   save_imported(demo, folder, true);
-  write_surroundings(demo.made, folder);
+  keep_rest_of_scapula(demo.made, folder);
   return demo.made;
 }
 

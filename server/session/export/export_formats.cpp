@@ -162,7 +162,8 @@ void write_surface(const ExportRequest& request, const fs::path& out, const Prog
 void write_snapshot(const ExportRequest& request, const fs::path& out, const Progress& progress) {
   std::vector<uint8_t> before;
   const case_::Case left = left_case(request, before, progress);
-  write_picture(left, before, out, case_surroundings(left.id, request.data));
+  write_picture(left, before, out,
+                case_surroundings(request.case_name.empty() ? left.id : request.case_name, request.data));
 }
 
 }  // namespace

@@ -184,7 +184,7 @@ void LiveSession::write_picture(const std::filesystem::path& png) {
   case_::Case reamed = intact_case();
   std::vector<uint8_t> before = state_.coverage();
   before.swap(reamed.bone.coverage);
-  session::write_picture(reamed, before, png);
+  session::write_picture(reamed, before, png, case_surroundings(request_.case_id, context_.data));
 }
 
 void LiveSession::publish_to_openigtlink() const {

@@ -36,8 +36,7 @@ case_::Case find_case(const std::string& name, const std::filesystem::path& data
 /// Where the case of that name is, or would be.
 std::filesystem::path case_folder_of(const std::string& name, const std::filesystem::path& data);
 
-/// What lies around the bone of the case of that name, LPS mm, where a file beside the case says it; else
-/// empty. Errors: those of load_mesh.
+/// What lies around the bone of the case of that name, as ct::kept_surroundings().
 TriangleMesh case_surroundings(const std::string& name, const std::filesystem::path& data);
 
 /// Its side, landmarks and glenoid frame as they are now. Error invalid_input for its landmarks.

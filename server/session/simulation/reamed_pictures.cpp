@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include "ct/build/surroundings.hpp"
 #include "geometry/mesh_io.hpp"
 #include "surface/block_mesh.hpp"
 
@@ -52,7 +53,8 @@ void draw_picture(const case_::Case& bone_case, const TriangleMesh& surface,
   layers[1].mesh = &parts.fresh;
   layers[1].colour = render::cut_bone_colour;
   for (auto& layer : layers) layer.world_from_mesh = bone_case.bone.grid.world_from_grid;
-  if (!around.triangles.empty()) layers.emplace_back().mesh = &around;
+  const TriangleMesh beyond = ct::beyond_reach(around, plan_of(bone_case));
+  if (!beyond.triangles.empty()) layers.emplace_back().mesh = &beyond;
   const Vec3 superior = bone_case.glenoid ? bone_case.glenoid->superior : Vec3::UnitZ();
   const render::Camera camera = glenoid_camera(plan_of(bone_case), superior, camera_distance_mm);
   render::write_png(png, render::draw(layers, camera, picture_width, picture_height));

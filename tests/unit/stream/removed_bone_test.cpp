@@ -38,10 +38,6 @@ struct Followed {
   RemovedBone removed;
 };
 
-unsigned level_of(const std::vector<uint8_t>& packed, size_t vertex) {
-  return packed.at(vertex / 2) >> (4 * (vertex % 2)) & 15u;
-}
-
 /// In voxels of the grid.
 Vec3 place_of(const surface::BlockVertex& vertex, int block_x) {
   return Vec3(vertex.x, vertex.y, vertex.z) / 1024.0 + Vec3(32.0 * block_x - 1.0, -1.0, -1.0);
@@ -73,18 +69,18 @@ TEST(RemovedBone, IsNoneWhereTheBoneIsAsItWasAndMostWhereAVoxelIsGone) {
     for (const uint32_t block : {0u, 1u}) {
       const surface::BlockMesh mesh =
           surface::BlockExtractor(now.grid, stride).extract(now.coverage.data(), block);
-      const std::vector<uint8_t> packed = followed.removed.packed(mesh.vertices, block);
-      ASSERT_EQ(packed.size(), block == 0 && packed.empty() ? 0 : (mesh.vertices.size() + 1) / 2);
-      for (size_t i = 0; i < mesh.vertices.size() && !packed.empty(); ++i) {
+      const std::vector<uint8_t> levels = followed.removed.levels(mesh.vertices, block);
+      ASSERT_EQ(levels.size(), block == 0 && levels.empty() ? 0 : mesh.vertices.size());
+      for (size_t i = 0; i < levels.size(); ++i) {
         const Vec3 at = place_of(mesh.vertices[i], static_cast<int>(block));
         const bool inside = at.x() > 1 && at.x() < 63 && at.y() > 1 && at.y() < 31;
         if (!inside || std::abs(at.z() - 19.6) > 1.5) continue;
         if (at.x() < 32.0 - stride) {
-          EXPECT_EQ(level_of(packed, i), 0u) << at.transpose();
+          EXPECT_EQ(levels[i], 0) << at.transpose();
           ++intact;
         }
         if (at.x() > 32.0 + stride) {
-          EXPECT_GE(level_of(packed, i), stride == 1 ? 15u : 8u) << at.transpose() << ", stride " << stride;
+          EXPECT_GE(levels[i], stride == 1 ? 15 : 8) << at.transpose() << ", stride " << stride;
           ++cut;
         }
       }
@@ -110,7 +106,8 @@ TEST(RemovedBone, IsTheDepthUnderTheFirstSurfaceAndNoMoreThanIsGone) {
   for (int i = 0; i < 3000; ++i)
     vertices.push_back({static_cast<uint16_t>(random() % 33792), static_cast<uint16_t>(random() % 33792),
                         static_cast<uint16_t>(17 * 1024 + random() % 6144), 0, 127});
-  const std::vector<uint8_t> packed = followed.removed.packed(vertices, 1);
+  const std::vector<uint8_t> levels = followed.removed.levels(vertices, 1);
+  ASSERT_EQ(levels.size(), vertices.size());
   for (size_t i = 0; i < vertices.size(); ++i) {
     const Vec3 at = place_of(vertices[i], 1);
     const double was = trilinear(before, at), lost = std::min(was - trilinear(now, at), was - 127.5) / 127.0;
@@ -118,6 +115,20 @@ TEST(RemovedBone, IsTheDepthUnderTheFirstSurfaceAndNoMoreThanIsGone) {
               static_cast<unsigned>(std::clamp(std::floor(15.0 * lost + 1e-9), 0.0, 15.0)))
         << at.transpose() << ", seed " << seed;
   }
+}
+
+/// What is gone goes with its vertex when the codec puts them in another order.
+TEST(RemovedBone, FollowsTheVerticesThroughTheCodec) {
+  const voxel::BoneModel now = slab(20.3, 18.9);
+  const Followed followed(slab(20.3, 20.3), now);
+  const surface::BlockMesh mesh = surface::BlockExtractor(now.grid).extract(now.coverage.data(), 1);
+  const std::vector<uint8_t> levels = followed.removed.levels(mesh.vertices, 1);
+  const EncodedBlock block = encode(mesh, 1, 1, 1, nullptr, levels);
+  const surface::BlockMesh sent = decode(block);
+  ASSERT_EQ(block.removed.size(), (sent.vertices.size() + 1) / 2);
+  EXPECT_EQ(block.removed, RemovedBone::packed(followed.removed.levels(sent.vertices, 1)));
+  EXPECT_NE(sent.vertices, mesh.vertices);
+  EXPECT_EQ(RemovedBone::packed(std::vector<uint8_t>{1, 2, 3}), (std::vector<uint8_t>{0x21, 0x03}));
 }
 
 /// Blocks that the mailbox holds, by whether they tell of anything that is gone.

@@ -131,7 +131,7 @@ class CaseContractTest : public ContractTest {
     expect_get(one_case + slices, made + "/volume/slices/w/3?of=colours", 422);
     expect_get(one_case + "/mesh", made + "/mesh", 409);
     expect_post(one_case + "/plan/proposal", made + "/plan/proposal", 409, "{}");
-    expect_get(one_case + "/surroundings", made + "/surroundings", 409);
+    expect_get(one_case + "/surroundings", made + "/surroundings", 404);
     expect_get(one_case + "/surroundings", cases + "/planned/surroundings", 404);
     expect_get(one_case + "/mesh", cases + "/nowhere/mesh", 404);
     expect_get(one_case + "/mesh", cases + "/planned/mesh", 200);

@@ -163,6 +163,7 @@ export class BoneScene implements SteeredView {
     this.orbit.setPlan(hello);
     this.plan = new PlanFrame(hello);
     this.surgeon.setPlan(this.plan);
+    this.surroundings.setPlan(this.plan);
     if (this.framedCase !== hello.caseId) {
       this.framedCase = hello.caseId;
       this.orbit.look('plan');
@@ -278,7 +279,7 @@ export class BoneScene implements SteeredView {
     const seenThrough = this.choices.seeThrough && this.choices.opacity < 1;
     const cuts = this.cuts(camera);
     this.bone.setLook(seenThrough ? this.choices.opacity : 1, cuts);
-    this.surroundings.cut(cuts);
+    this.surroundings.setLook(seenThrough, cuts);
     const look = this.opaqueTool ? 'steel' : seenThrough ? 'throughBone' : 'glass';
     this.tool.setLook(look, this.toolQuality.full.peek(), cuts.length === 0);
     this.toolMoves = this.tool.step(seconds);

@@ -6,7 +6,8 @@ import { faceHeightMm, type ToolProfile } from './tool_profile';
 
 /** As server/force/coefficients.hpp has the lips: so many, straight, and past the axis at this share of the rim. */
 export const lipCount = 5;
-const lipOffsetShare = Math.sin((9.46 * Math.PI) / 180);
+export const lipAngleDeg = 9.46;
+const lipOffsetShare = Math.sin((lipAngleDeg * Math.PI) / 180);
 export const lipPitchRad = (2 * Math.PI) / lipCount;
 
 /** Behind its lip a blade goes on for so much of the way to the next lip; the rest is open to the bone. */

@@ -41,7 +41,11 @@ export class Surroundings {
         if (surface !== null && shown === id) picture.showSurroundings(surface);
       };
       const url = `${origin}/api/v1/cases/${encodeURIComponent(id)}/surroundings`;
-      void this.source.load(url).then(take, () => undefined);
+      // Asked for again with the next connection, as it may be there then.
+      const forget = () => {
+        if (shown === id) shown = '';
+      };
+      void this.source.load(url).then(take, forget);
     });
   }
 

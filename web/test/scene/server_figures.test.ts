@@ -1,0 +1,49 @@
+// What the page and the server must say alike is held together here.
+import { readFileSync } from 'node:fs';
+
+import { Color, Vector3 } from 'three';
+import { describe, expect, it } from 'vitest';
+
+import { cutBoneColours } from '../../src/scene/cut_bone';
+import { beyondReach } from '../../src/scene/surroundings_view';
+import { lipAngleDeg, lipCount } from '../../src/scene/tool_shape';
+import type { Surface } from '../../src/wire/ply';
+
+const source = (path: string) => readFileSync(new URL(`../../../server/${path}`, import.meta.url), 'utf8');
+
+function figures(path: string, name: RegExp): number[] {
+  const found = name.exec(source(path))?.slice(1) ?? [];
+  if (found.length === 0) throw new Error(`${path} has no ${name.source}`);
+  return found.map(Number);
+}
+
+/** One triangle with all corners in that place. */
+function at(x: number, y: number, z: number): Surface {
+  const positions = new Float32Array([x, y, z, x, y, z, x, y, z]);
+  return { positions, normals: positions, indices: new Uint32Array([0, 1, 2]), low: [0, 0, 0], high: [0, 0, 0] };
+}
+const isLeft = (surface: Surface) => beyondReach(surface, new Vector3(1, 2, 3), new Vector3(0, 0, 1)).length > 0;
+
+describe('page and server', () => {
+  it('paint cut bone alike', () => {
+    const colour = /cut_bone_colour\{([\d.]+)f, ([\d.]+)f, ([\d.]+)f\}/;
+    const linear = new Color(cutBoneColours.cancellous).toArray();
+    figures('render/snapshot.hpp', colour).forEach((value, i) => expect(value).toBeCloseTo(linear[i] ?? 0, 3));
+  });
+
+  it('have the same lips', () => {
+    const path = 'force/coefficients.hpp';
+    expect(figures(path, /lip_count = (\d+)/)).toEqual([lipCount]);
+    expect(figures(path, /lip_angle_rad = radians_from_degrees\(([\d.]+)\)/)).toEqual([lipAngleDeg]);
+  });
+
+  it('leave out the same surroundings', () => {
+    const path = 'ct/build/surroundings.cpp';
+    const [reach = 0, depth = 0] = figures(path, /reamers_reach_mm = ([\d.]+), reamers_depth_mm = ([\d.]+)/);
+    expect(isLeft(at(1 + reach - 0.01, 2, 3))).toBe(false);
+    expect(isLeft(at(1 + reach + 0.01, 2, 3))).toBe(true);
+    expect(isLeft(at(1, 2, 3 + depth - 0.01))).toBe(false);
+    expect(isLeft(at(1, 2, 3 + depth + 0.01))).toBe(true);
+    expect(isLeft(at(1, 2, -1000))).toBe(false);
+  });
+});
