@@ -84,7 +84,7 @@ function main(root: HTMLElement): void {
   publishDebugReadout({ store, practice: practiceStore, scene, sound, latency });
   const view = new ViewSettings();
   scene.onInteraction = () => {
-    if (view.choices.peek().camera !== 'own') view.change({ camera: 'own' });
+    if (view.camera.peek() !== 'own') view.change({ camera: 'own' });
   };
   const inTheatre = theatreHere(store, practiceStore, route);
   effect(() => void (view.theatre.value = inTheatre.value));
@@ -192,11 +192,12 @@ function measureLatency(store: Store, practice: PracticeStore, scene: BoneScene)
 }
 
 function makeTutorial(parts: Omit<TutorialParts, 'view'>, scene: BoneScene, view: ViewSettings): Tutorial {
-  const reset = () => {
-    view.change({ camera: 'own' });
+  const begin = () => {
+    view.ownForNow.value = true;
     scene.look('plan');
   };
-  return new Tutorial({ ...parts, view: { eye: () => scene.eye(), reset } });
+  const end = () => (view.ownForNow.value = false);
+  return new Tutorial({ ...parts, view: { eye: () => scene.eye(), begin, end } });
 }
 
 /** How somebody wants to see the bone, and who knows the tutorial; on a server without users both are the browser's. */
