@@ -1,6 +1,13 @@
 import { describe, expect, it } from 'vitest';
 
-import { advanced, type Astray, type StepName, stepNames, strayed, type TutorialSnapshot } from '../../src/state/tutorial';
+import {
+  advanced,
+  type Astray,
+  type StepName,
+  stepNames,
+  strayed,
+  type TutorialSnapshot,
+} from '../../src/state/tutorial';
 import { tutorialText } from '../../src/text/tutorial_text';
 
 const atFirst: TutorialSnapshot = {
