@@ -1,5 +1,5 @@
-// Somebody who has never seen the page follows the tutorial to the letter, by mouse and by keys, skips it, goes too deep,
-// or ends it early.
+// Somebody who has never seen the page follows the tutorial to the letter, by mouse and by keys, skips it, goes too
+// deep, or ends it early.
 import { AxeBuilder } from '@axe-core/playwright';
 import { expect, type Page, test } from '@playwright/test';
 
