@@ -67,14 +67,7 @@ function main(root: HTMLElement): void {
   effect(() => {
     if (scene.lost.value && practiceStore.sessionId.peek() !== null) untracked(() => practice.letGo());
   });
-  effect(() => scene.setToolPose(store.telemetry.value?.worldFromTool ?? null));
-  effect(() => scene.setBonePose(store.telemetry.value?.worldFromBoneRest ?? null));
-  effect(() => scene.setToolAction(toolAction(store.telemetry.value, store.upToDate.value)));
-  effect(() => scene.setTouching(store.touching.value));
-  effect(() => {
-    if (scene.headset.worn.value) scene.headset.show(headsetMessage(store));
-  });
-  effect(() => scene.setToolShown(store.reamerShown.value));
+  showReamer(store, scene);
   const liveCase = new LiveCase(store, () => identity.may.value.readCases, window.location.origin);
   const seesSurroundings = () => identity.may.value.readCases && scene.toolQuality.full.value;
   new Surroundings(store, scene, new MeshLoader(), seesSurroundings, window.location.origin);
@@ -84,7 +77,7 @@ function main(root: HTMLElement): void {
   publishDebugReadout({ store, practice: practiceStore, scene, sound, latency });
   const view = new ViewSettings();
   scene.onInteraction = () => {
-    if (view.choices.peek().camera !== 'own') view.change({ camera: 'own' });
+    if (view.camera.peek() !== 'own') view.change({ camera: 'own' });
   };
   const inTheatre = theatreHere(store, practiceStore, route);
   effect(() => void (view.theatre.value = inTheatre.value));
@@ -121,6 +114,18 @@ function main(root: HTMLElement): void {
   beginWithOverview(identity, route);
   void identity.find(linkSecret);
   watchWhenKnown(identity, route, () => goOnSteering(api, store, practice), { watcher, practice, practiceStore });
+}
+
+/** Where the reamer and the bone are, and what the reamer does. */
+function showReamer(store: Store, scene: BoneScene): void {
+  effect(() => scene.setToolPose(store.telemetry.value?.worldFromTool ?? null));
+  effect(() => scene.setBonePose(store.telemetry.value?.worldFromBoneRest ?? null));
+  effect(() => scene.setToolAction(toolAction(store.telemetry.value, store.upToDate.value)));
+  effect(() => scene.setTouching(store.touching.value));
+  effect(() => {
+    if (scene.headset.worn.value) scene.headset.show(headsetMessage(store));
+  });
+  effect(() => scene.setToolShown(store.reamerShown.value));
 }
 
 function watchForFeel(
@@ -192,11 +197,12 @@ function measureLatency(store: Store, practice: PracticeStore, scene: BoneScene)
 }
 
 function makeTutorial(parts: Omit<TutorialParts, 'view'>, scene: BoneScene, view: ViewSettings): Tutorial {
-  const reset = () => {
-    view.change({ camera: 'own' });
+  const begin = () => {
+    view.ownForNow.value = true;
     scene.look('plan');
   };
-  return new Tutorial({ ...parts, view: { eye: () => scene.eye(), reset } });
+  const end = () => (view.ownForNow.value = false);
+  return new Tutorial({ ...parts, view: { eye: () => scene.eye(), begin, end } });
 }
 
 /** How somebody wants to see the bone, and who knows the tutorial; on a server without users both are the browser's. */

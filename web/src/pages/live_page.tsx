@@ -54,14 +54,13 @@ export interface LivePageParts {
 export function LivePage(parts: LivePageParts) {
   const { store, watcher, scene, view, liveCase, alarms, sound, latency, practice, practiceStore, tutorial } = parts;
   const bar = store.replaying.value ? 'page-replay' : practiceStore.steering.value ? 'page-practice' : '';
+  const guided = tutorial.session.value !== null && !store.replaying.value;
   const toPicture = () => scene.canvas.focus({ preventScroll: true });
   return (
     <div class={`page ${bar}`}>
       <Header store={store} />
-      {tutorial.session.value !== null && (
-        <TutorialPanel {...{ store, watcher, tutorial }} practice={practiceStore} toPicture={toPicture} />
-      )}
-      <Picture {...{ store, scene, view, alarms }} practice={practiceStore} guided={tutorial.session.value !== null}>
+      {guided && <TutorialPanel {...{ store, tutorial }} practice={practiceStore} toPicture={toPicture} />}
+      <Picture {...{ store, scene, view, alarms }} practice={practiceStore} guided={guided}>
         <LiveStrip store={store} practice={practiceStore} latency={latency} sound={sound} slicesOpen={slicesOpen} />
         {slicesOpen.value &&
           slices.show(({ LiveSlicesPanel }) => <LiveSlicesPanel store={store} liveCase={liveCase} />)}

@@ -21,8 +21,8 @@ export function plainShaft(backZMm: number, material: MeshStandardMaterial): Mes
 }
 
 /**
- * The instrument in steel: its body, and its blades, which turn and are a blur when they turn fast; around them faint glass
- * shows how far they cut.
+ * The instrument in steel: its body, and its blades, which turn and are a blur when they turn fast; around them faint
+ * glass shows how far they cut.
  */
 export class SteelParts {
   readonly group = new Group();

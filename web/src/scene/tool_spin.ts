@@ -1,4 +1,7 @@
-/** From a turn of this share of the way to the next blade between two pictures, blades begin to be a blur; they are one at the other. */
+/**
+ * From a turn of this share of the way to the next blade between two pictures, blades begin to be a blur; they are one
+ * at the other.
+ */
 const blurFromShare = 0.2;
 const blurWholeShare = 0.4;
 /** How fast pictures follow is known after some of them. */

@@ -78,9 +78,9 @@ export class ToolView {
   }
 
   /**
-   * Glass, so that the bone under it can be judged; steel in theatre. With bone that is seen through it is drawn first and
-   * hides nothing, so that both are seen through each other. Chips are only seen on whole bone: they would lie where it
-   * is cut away.
+   * Glass, so that the bone under it can be judged; steel in theatre. With bone that is seen through it is drawn first
+   * and hides nothing, so that both are seen through each other. Chips are only seen on whole bone: they would lie
+   * where it is cut away.
    */
   setLook(look: ToolLook, full: boolean, boneIsWhole: boolean): void {
     this.boneIsWhole = boneIsWhole && look !== 'throughBone';

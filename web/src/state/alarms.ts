@@ -19,6 +19,8 @@ const holdsTicks = 1500;
 /** Older entries of a batch are history, which a jump of a replay sends first. */
 const freshTicks = 250;
 const bounceTicks = 500;
+/** More than this is felt only on bone, N. */
+const onBoneN = 1;
 
 export interface Alarm {
   kind: 'thrust' | 'depth' | 'vault' | 'heat';
@@ -27,16 +29,23 @@ export interface Alarm {
   value: number;
 }
 
+/** The greatest of a batch, without its history. */
+function mostThrustN({ tick, firstTick, tickStride, thrustN }: Telemetry): number {
+  let newtons = 0;
+  thrustN.forEach((value, i) => {
+    if (tick - (firstTick + i * tickStride) <= freshTicks) newtons = Math.max(newtons, value);
+  });
+  return newtons;
+}
+
 /** Excess thrust is shown a while longer than it lasts, so that it can be read. Ticks are those of the session. */
 export class ThrustWatch {
   private peaks: { tick: number; newtons: number }[] = [];
 
   /** The greatest excess of the last moments, or null. */
-  take({ tick, firstTick, tickStride, thrustN }: Telemetry): number | null {
-    let newtons = 0;
-    thrustN.forEach((value, i) => {
-      if (tick - (firstTick + i * tickStride) <= freshTicks) newtons = Math.max(newtons, value);
-    });
+  take(telemetry: Telemetry): number | null {
+    const { tick } = telemetry;
+    const newtons = mostThrustN(telemetry);
     this.peaks = this.peaks.filter((peak) => peak.tick <= tick && tick - peak.tick < holdsTicks);
     if (newtons > excessThrustN) this.peaks.push({ tick, newtons });
     return this.peaks.length === 0 ? null : Math.max(...this.peaks.map((peak) => peak.newtons));
@@ -47,12 +56,16 @@ export class ThrustWatch {
   }
 }
 
-/** Whether the reamer is on bone; one that bounces while it cuts counts as being there. Ticks are those of the session. */
+/**
+ * Whether the reamer is on bone; one that bounces while it cuts counts as being there. By the thrust too, since studies
+ * of feel hide the density. Ticks are those of the session.
+ */
 export class TouchWatch {
   private lastTick: number | null = null;
 
-  take({ tick, densityGCc }: Pick<Telemetry, 'tick' | 'densityGCc'>): boolean {
-    if (densityGCc > 0) this.lastTick = tick;
+  take(telemetry: Telemetry): boolean {
+    const { tick, densityGCc } = telemetry;
+    if (densityGCc > 0 || mostThrustN(telemetry) > onBoneN) this.lastTick = tick;
     return this.lastTick !== null && this.lastTick <= tick && tick - this.lastTick < bounceTicks;
   }
 

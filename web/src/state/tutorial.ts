@@ -1,3 +1,5 @@
+import { excessThrustN } from './alarms';
+
 /**
  * The first reaming, step by step. A step is done by the state that it asks for, never by time; this file knows nothing
  * of the page, only what holds at a moment.
@@ -7,8 +9,8 @@
 export const thrustBandN = { from: 35, to: 70 } as const;
 /** Up to this much is a touch, N. */
 export const touchMostN = 25;
-/** From here on thrust counts as excess, N: 1.5 times the surgeons' 52 N. */
-const excessN = 78;
+/** Words do not come and go at the rim of what is too hard: they end this far below it, N. */
+const clearlyLessN = 5;
 /** The plan counts as reached within this, mm. */
 export const depthWithinMm = 0.3;
 /** The orange dot is in the green ring. */
@@ -29,8 +31,8 @@ export interface TutorialSnapshot {
   steering: boolean;
   /** The session has ended. */
   ended: boolean;
-  /** Its result can be read. */
-  result: boolean;
+  /** And not because somebody ended it. */
+  failed: boolean;
   /** The input in use can zoom; others look from the set views. */
   canZoom: boolean;
   /** How far the picture is turned from how the tutorial began, and was at most. */
@@ -116,20 +118,36 @@ export const steps: Readonly<Record<StepName, Step>> = {
     done: (now) => now.spindleTurns && !now.touching && now.drawnBackMm >= now.plannedMm + freeMm,
     watches: ['stalled', 'pressesOn', 'spindleOff'],
   },
-  result: { done: (now) => now.ended && now.result, watches: ['pressesOn'] },
+  result: { done: (now) => now.ended, watches: ['pressesOn'] },
 };
 
+const tooHardN = (step: StepName) => (step === 'touch' ? touchMostN : excessThrustN);
+const offAxis = (now: TutorialSnapshot) => now.besideMm > aimLost.mm || now.leanDeg > aimLost.deg;
+
+/** What begins to hold. */
 const holds: Readonly<Record<Astray, (now: TutorialSnapshot, step: StepName) => boolean>> = {
   tooDeep: (now) => now.plannedMm > 0 && now.depthMm > now.plannedMm + depthWithinMm,
-  endedEarly: (now, step) => now.ended && step !== 'result',
+  endedEarly: (now, step) => now.ended && (step !== 'result' || now.failed),
   notInHand: (now) => !now.ended && !now.steering,
   tooEarly: (now) => now.touching && now.pushN > 0,
   stalled: (now) => now.stalled,
   spindleOff: (now) => !now.spindleOn,
-  offAxis: (now) => now.touching && now.pushN > 0 && (now.besideMm > aimLost.mm || now.leanDeg > aimLost.deg),
-  tooHard: (now, step) => now.touching && now.thrustN > (step === 'touch' ? touchMostN : excessN),
+  offAxis: (now) => now.touching && now.pushN > 0 && offAxis(now),
+  tooHard: (now, step) => now.touching && now.thrustN > tooHardN(step),
   tooShallow: (now) => now.pushN <= 0 && !deepEnough(now),
   pressesOn: (now) => now.pushN > 0 && now.touching,
+};
+
+/**
+ * What goes on to hold once it has been said, where that is more: a reamer that bounces on the bone, or a hand that
+ * trembles, changes no words.
+ */
+const stillHolds: Partial<typeof holds> = {
+  tooEarly: (now) => now.pushN > 0,
+  offAxis: (now) => now.pushN > 0 && !onAxis(now),
+  tooHard: (now, step) => now.thrustN > tooHardN(step) - clearlyLessN,
+  tooShallow: (now) => now.pushN <= restingN && !deepEnough(now),
+  pressesOn: (now) => now.pushN > 0,
 };
 
 /** Whatever the step. */
@@ -142,14 +160,20 @@ export function advanced(step: number, now: TutorialSnapshot): number {
   return steps[name].done(now) ? step + 1 : step;
 }
 
-/** How somebody at a step has left the path; null: not at all. */
-export function strayed(step: number, now: TutorialSnapshot): Astray | null {
+/** How somebody at a step has left the path, after what was said of that before; null: not at all. */
+export function strayed(step: number, now: TutorialSnapshot, said: Astray | null = null): Astray | null {
   const name = stepNames[step];
   if (name === undefined) return null;
-  return astray(step, now, [...always, ...steps[name].watches]);
+  return astray(step, now, [...always, ...steps[name].watches], said);
 }
 
-function astray(step: number, now: TutorialSnapshot, among: readonly Astray[]): Astray | null {
+function astray(
+  step: number,
+  now: TutorialSnapshot,
+  among: readonly Astray[],
+  said: Astray | null = null,
+): Astray | null {
   const name = stepNames[step];
-  return name === undefined ? null : (among.find((one) => holds[one](now, name)) ?? null);
+  if (name === undefined) return null;
+  return among.find((one) => holds[one](now, name) || (one === said && stillHolds[one]?.(now, name))) ?? null;
 }

@@ -1,6 +1,7 @@
 import { batch, computed, effect, type ReadonlySignal, signal, untracked } from '@preact/signals';
 
 import type { InputKind } from '../practice/last_input';
+import { usualThrustN } from './alarms';
 import type { Practice } from './practice';
 import type { PracticeStore } from './practice_store';
 import type { Store } from './store';
@@ -9,9 +10,8 @@ import { freshMemory, snapshotOf, type TutorialEye, type TutorialMemory } from '
 import type { Watcher } from './watcher';
 
 const demoCase = 'demo';
-/** Full push of a first touch, and of reaming, N. */
+/** Full push of a first touch, N. */
 const gentleN = 12;
-const usualN = 52;
 /** Where the reamer waits beside the plan, so that there is something to aim. */
 const besideAtFirst = { superior: 5, anterior: 5 };
 
@@ -19,14 +19,16 @@ const besideAtFirst = { superior: 5, anterior: 5 };
 interface TutorialView {
   eye(): TutorialEye;
   /** As the surgeon sees it, the plan in the middle. */
-  reset(): void;
+  begin(): void;
+  /** As the person had chosen it. */
+  end(): void;
 }
 
 export interface TutorialParts {
   store: Store;
   practice: Pick<Practice, 'steer'>;
   practiceStore: PracticeStore;
-  watcher: Pick<Watcher, 'practise' | 'reset'>;
+  watcher: Pick<Watcher, 'practise' | 'reset' | 'stop'>;
   view: TutorialView;
 }
 
@@ -41,7 +43,9 @@ export class Tutorial {
   readonly stepName: ReadonlySignal<StepName | null> = computed(() => stepNames[this.step.value] ?? null);
   readonly input: ReadonlySignal<InputKind>;
   private memory: TutorialMemory | null = null;
-  private levelBeforeN = usualN;
+  /** A session is being made for it; what the page watches until then does not end it. */
+  private readonly making = signal(false);
+  private levelBeforeN = usualThrustN;
   private keep: (what: string) => void = () => undefined;
 
   constructor(private readonly parts: TutorialParts) {
@@ -52,7 +56,12 @@ export class Tutorial {
   /** Takes up what this person did with it in this browser. */
   keepFor(person: string, storage: Pick<Storage, 'getItem' | 'setItem'>): void {
     const key = `ream.tutorial.${person}`;
-    const kept = storage.getItem(key);
+    let kept: string | null = null;
+    try {
+      kept = storage.getItem(key);
+    } catch {
+      // As if it had never been offered.
+    }
     this.remembered.value = kept === 'finished' || kept === 'skipped' ? kept : null;
     this.keep = (what) => {
       try {
@@ -65,15 +74,25 @@ export class Tutorial {
 
   /** A session of its own on the demo, from the first step on. */
   async start(): Promise<void> {
-    this.levelBeforeN = this.parts.practiceStore.hand.levelN.peek();
-    const id = await this.parts.watcher.practise(demoCase, false);
-    if (id !== null) this.lead(id);
+    if (this.session.peek() === null) this.levelBeforeN = this.parts.practiceStore.hand.levelN.peek();
+    await this.leadThrough(() => this.parts.watcher.practise(demoCase, false));
   }
 
-  /** The same on intact bone, in another session. */
+  /** The same on intact bone, in another session; one that has ended, or is in another hand, is left as it is. */
   async again(): Promise<void> {
-    const id = await this.parts.watcher.reset();
-    if (id !== null) this.lead(id);
+    if (!this.held()) return this.start();
+    const { store, watcher } = this.parts;
+    await this.leadThrough(async () => {
+      const id = await watcher.reset();
+      // Had the old one ended meanwhile, the new one waits for somebody to start it.
+      const waits = id !== null && store.sessionState.peek() === 'created';
+      return waits ? watcher.practise(demoCase, false) : id;
+    });
+  }
+
+  /** Ends its session; no other, and none that is in another hand. */
+  async stop(): Promise<void> {
+    if (this.held()) await this.parts.watcher.stop();
   }
 
   /** Not wanted, or not any more; the reamer stays in the hand. */
@@ -85,7 +104,24 @@ export class Tutorial {
   close(): void {
     if (this.session.peek() === null) return;
     this.parts.practiceStore.hand.setLevel(this.levelBeforeN);
+    this.parts.view.end();
     this.session.value = null;
+  }
+
+  /** Its session is watched, and in the hand here. */
+  private held(): boolean {
+    const session = this.session.peek();
+    const { store, practiceStore } = this.parts;
+    return session !== null && store.sessionId.peek() === session && practiceStore.sessionId.peek() === session;
+  }
+
+  private async leadThrough(make: () => Promise<string | null>): Promise<void> {
+    this.making.value = true;
+    const id = await make();
+    batch(() => {
+      if (id !== null) this.lead(id);
+      this.making.value = false;
+    });
   }
 
   private lead(id: string): void {
@@ -94,49 +130,50 @@ export class Tutorial {
       this.session.value = id;
       this.step.value = 0;
       this.astray.value = null;
+      if (this.parts.practiceStore.sessionId.peek() !== id) this.parts.practice.steer(id);
     });
-    if (this.parts.practiceStore.sessionId.peek() !== id) this.parts.practice.steer(id);
   }
 
   private follow(): void {
     const { store, practiceStore } = this.parts;
     const session = this.session.value;
-    if (session === null) return;
+    if (session === null || this.making.value || store.replaying.value) return;
     const watched = store.watched.value;
     if (watched !== null && watched.id !== session) {
       if (watched.reset_of !== session) return untracked(() => this.close());
       if (practiceStore.sessionId.value === watched.id) untracked(() => this.lead(watched.id));
       return;
     }
-    if (this.memory === null && !this.begin(session)) return;
-    this.judge(session);
+    if (store.sessionId.value !== session) return;
+    if (this.memory === null) this.begin(session);
+    // Before the picture is there nothing can be done, but the session may end, or be in another hand.
+    this.judge(session, this.memory ?? freshMemory(this.parts.view.eye()));
   }
 
-  /** Once the picture is there; whether it is. */
-  private begin(session: string): boolean {
+  /** Once the picture is there. */
+  private begin(session: string): void {
     const { store, practiceStore, view } = this.parts;
     const ready = practiceStore.plan.value !== null && store.pictureComplete.value;
-    if (!ready || store.hello.value?.sessionId !== session) return false;
+    if (!ready || store.hello.value?.sessionId !== session) return;
     untracked(() => {
-      view.reset();
+      view.begin();
+      store.reamerShown.value = true;
       practiceStore.hand.putAt(besideAtFirst, true);
       practiceStore.hand.setLevel(gentleN);
     });
     this.memory = freshMemory(view.eye());
-    return true;
   }
 
-  private judge(session: string): void {
+  private judge(session: string, memory: TutorialMemory): void {
     const { store, practiceStore, view } = this.parts;
-    if (this.memory === null) return;
     const input = this.input.value;
-    const now = snapshotOf(session, this.memory, { store, practice: practiceStore, input, eye: view.eye() });
+    const now = snapshotOf(session, memory, { store, practice: practiceStore, input, eye: view.eye() });
     untracked(() => {
       const before = this.step.value;
       const after = advanced(before, now);
       batch(() => {
         this.step.value = after;
-        this.astray.value = strayed(after, now);
+        this.astray.value = strayed(after, now, this.astray.value);
       });
       if (after !== before) this.onStep(stepNames[before] ?? 'look');
     });
@@ -147,7 +184,7 @@ export class Tutorial {
     // Stays on the plan while the pointer goes to a button.
     if (done === 'aim') hand.putAt(hand.place.value, true);
     // A trigger says by itself how hard it presses.
-    if (done === 'spindle') hand.setLevel(this.input.value === 'gamepad' ? usualN : gentleN);
+    if (done === 'spindle') hand.setLevel(this.input.value === 'gamepad' ? usualThrustN : gentleN);
     if (this.step.value === stepNames.length) this.remember('finished');
   }
 

@@ -46,9 +46,9 @@ export function snapshotOf(session: string, memory: TutorialMemory, sources: Sou
   memory.deepestMm = Math.max(memory.deepestMm, tool?.depthMm ?? -Infinity);
   const lean = Math.hypot(hand.lean.value.superior, hand.lean.value.anterior);
   return {
-    steering: practice.plan.value !== null && practice.sessionId.value === session,
+    steering: practice.sessionId.value === session,
     ended,
-    result: store.metrics.value !== null,
+    failed: state === 'fault' || state === 'interrupted',
     canZoom: input === 'mouse' || input === 'keys',
     ...seen(memory, sources.eye),
     besideMm: Math.max(practice.offPlanMm.value, tool?.besideMm ?? 0),

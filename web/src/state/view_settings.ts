@@ -52,12 +52,17 @@ export class ViewSettings {
   readonly choices = signal<ViewChoices>(plainView);
   /** Nothing but the bone and an opaque reamer is seen, from where the surgeon stands. */
   readonly theatre = signal(false);
-  readonly shown = computed(() => {
+  /** For a while one's own camera, whatever is chosen and kept. */
+  readonly ownForNow = signal(false);
+  readonly camera = computed(() => (this.ownForNow.value ? 'own' : this.choices.value.camera));
+  readonly shown = computed((): ViewChoices => {
     const { toolDrawing } = this.choices.value;
-    return this.theatre.value ? { ...theatreView, toolDrawing } : this.choices.value;
+    if (this.theatre.value) return { ...theatreView, toolDrawing };
+    return { ...this.choices.value, camera: this.camera.value };
   });
 
   change(part: Partial<ViewChoices>): void {
+    if (part.camera !== undefined) this.ownForNow.value = false;
     this.choices.value = { ...this.choices.peek(), ...part };
   }
 

@@ -1,12 +1,17 @@
 /** Texts of the tutorial. What stands in square brackets is a key, a button or a part of the mouse, named as it is. */
 import type { InputKind } from '../practice/last_input';
+import { appText } from './app_text';
+
+const { irrigationButton, pushLevel, stop, takeOver, viewPlan, viewSide, withdrawButton } = appText;
+const spindleOff = appText.spindleButton(false);
+const again = 'Start again';
 
 type ByInput = Readonly<Record<InputKind, string>>;
 
 /** Ends of sentences: what is done with the input in use. */
 const startSpindle: ByInput = {
-  mouse: 'press [Spindle off] below the picture',
-  touch: 'tap [Spindle off] below the picture',
+  mouse: `press [${spindleOff}] below the picture`,
+  touch: `tap [${spindleOff}] below the picture`,
   keys: 'press [S]',
   gamepad: 'press [A]',
 };
@@ -18,7 +23,7 @@ const release: ByInput = {
 };
 const pressLess: ByInput = {
   mouse: 'turn the [wheel] down',
-  touch: 'lift the [second finger], and drag [Full push] to the left',
+  touch: `lift the [second finger], and drag [${pushLevel}] to the left`,
   keys: 'press [−]',
   gamepad: 'let the [right trigger] up a little',
 };
@@ -30,7 +35,7 @@ const pressAgain: ByInput = {
 };
 const withdraw: ByInput = {
   mouse: 'hold the [right button]',
-  touch: 'hold [Withdraw] below the picture',
+  touch: `hold [${withdrawButton}] below the picture`,
   keys: 'hold [B]',
   gamepad: 'hold the [left trigger]',
 };
@@ -53,16 +58,16 @@ const sentences = (of: ByInput): ByInput => ({
 const todo = {
   look: (): ByInput => ({
     mouse: 'Hold [Ctrl] and drag with the [left button] to turn the picture, then hold [Ctrl] and turn the [wheel].',
-    touch: 'Tap [Side] in the picture, then [Surgeon].',
+    touch: `Tap [${viewSide}] in the picture, then [${viewPlan}].`,
     keys: 'Hold [Ctrl] and press [←] until the picture has turned, then press [Page up].',
-    gamepad: 'Click [Side] in the picture, then [Surgeon].',
+    gamepad: `Click [${viewSide}] in the picture, then [${viewPlan}].`,
   }),
   aim: () => sentences(aim),
   spindle: (): ByInput => ({
-    mouse: 'Press [Spindle off] below the picture to start the spindle, and [Irrigation] beside it.',
-    touch: 'Tap [Spindle off] below the picture to start the spindle, and [Irrigation] beside it.',
+    mouse: `Press [${spindleOff}] below the picture to start the spindle, and [${irrigationButton}] beside it.`,
+    touch: `Tap [${spindleOff}] below the picture to start the spindle, and [${irrigationButton}] beside it.`,
     keys: 'Press [S] to start the spindle, and [I] to irrigate.',
-    gamepad: 'Press [A] to start the spindle, and click [Irrigation] below the picture.',
+    gamepad: `Press [A] to start the spindle, and click [${irrigationButton}] below the picture.`,
   }),
   touch: (): ByInput => ({
     mouse: 'Aim at the green ring and hold the [left button] until the reamer touches the bone.',
@@ -73,7 +78,7 @@ const todo = {
   }),
   press: (): ByInput => ({
     mouse: 'Keep the [left button] held and turn the [wheel] up until the thrust is in the band; stay in the ring.',
-    touch: 'Drag [Full push] below the picture to 52 N, then hold both fingers in the picture again.',
+    touch: `Drag [${pushLevel}] below the picture to 52 N, then hold both fingers in the picture again.`,
     keys: 'Keep [Space] held and press [+] until the thrust is in the band.',
     gamepad: 'Press the [right trigger] until the thrust is in the band; stay in the ring.',
   }),
@@ -90,18 +95,18 @@ const todo = {
     gamepad: `${sentence(withdraw.gamepad).slice(0, -1)} until the reamer is free; let the spindle turn.`,
   }),
   result: (): ByInput => ({
-    mouse: 'Press [Stop] below, then read your result.',
-    touch: 'Tap [Stop] below, then read your result.',
-    keys: 'Press [Shift]+[Tab] until Stop is framed, then [Enter], and read your result.',
-    gamepad: 'Click [Stop] below, then read your result.',
+    mouse: `Press [${stop}] below, then read your result.`,
+    touch: `Tap [${stop}] below, then read your result.`,
+    keys: `Press [Shift]+[Tab] until ${stop} is framed, then [Enter], and read your result.`,
+    gamepad: `Click [${stop}] below, then read your result.`,
   }),
 };
 
 const why = {
-  look: 'The reamer hides what it cuts; from the side you see it. The button Surgeon brings this view back.',
+  look: `The reamer hides what it cuts; from the side you see it. The button ${viewPlan} brings this view back.`,
   aim: 'The green ring is the planned place. What is cut beside it stays cut.',
   spindle: 'A reamer that is pressed before it turns can catch. Without saline the bone becomes too warm.',
-  touch: 'Full push is set low, so that you find the bone without a blow.',
+  touch: `${pushLevel} is set low, so that you find the bone without a blow.`,
   press:
     'On the gauge the band is the wanted thrust, the mark is yours. The score gives all points for a mean of 35 to 70 N.',
   stop: 'Bone that is cut too deep does not come back. What is left can still be cut.',
@@ -122,9 +127,9 @@ const done = {
 
 const strayed = {
   tooDeep: () =>
-    'You have gone more than 0.3 mm past the plan, and that bone does not come back. Press Start again: the same case, with intact bone.',
-  endedEarly: () => 'The session ended before the last step. Press Start again for a new one.',
-  notInHand: () => 'The reamer is not in your hand. Take it back with Take over, or press Start again.',
+    `You have gone more than 0.3 mm past the plan, and that bone does not come back. Press ${again}: the same case, with intact bone.`,
+  endedEarly: () => `The session ended before the last step. Press ${again} for a new one.`,
+  notInHand: () => `The reamer is not in your hand. Take it back with [${takeOver}].`,
   tooEarly: (input: InputKind) =>
     `The reamer is on the bone already. First ${release[input]}, then ${withdraw[input]} a moment.`,
   stalled: (input: InputKind) => `The bone holds the reamer. First ${withdraw[input]} a moment, then press less.`,
@@ -147,9 +152,9 @@ export const tutorialText = {
   stepDone: 'done',
   skip: 'Skip tutorial',
   skipHint: 'You keep the reamer. The tutorial stays at hand beside Practise. (Esc)',
-  again: 'Start again',
+  again,
   againHint: 'A new session on the same case, with intact bone. This one ends and is kept.',
-  stop: 'Stop',
+  againOwnHint: 'A new session of your own on the same case. This one goes on.',
   close: 'Close',
   review: 'Review this session',
   todo,

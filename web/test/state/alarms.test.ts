@@ -67,7 +67,7 @@ describe('alarms', () => {
     const store = liveStore();
     const alarms = new Alarms(store);
     const at = (tick: number, densityGCc: number) => {
-      store.telemetry.value = batch(tick, [10], { depthMm: 2.4, densityGCc });
+      store.telemetry.value = batch(tick, [10 * densityGCc], { depthMm: 2.4, densityGCc });
       return alarms.now.value.map(({ kind }) => kind);
     };
     expect(at(100, 1)).toEqual(['depth']);
@@ -79,6 +79,18 @@ describe('alarms', () => {
     expect(at(5030, 0.2)).toEqual(['depth']);
     // A step back in a recording, to before anything was touched.
     expect(at(50, 0)).toEqual([]);
+  });
+
+  it('of depth is told by the thrust alone where the density is hidden, and ends without it', () => {
+    const store = liveStore();
+    const alarms = new Alarms(store);
+    const at = (tick: number, thrust: number) => {
+      store.telemetry.value = batch(tick, [thrust], { depthMm: 2.4, densityGCc: 0 });
+      return alarms.now.value.map(({ kind }) => kind);
+    };
+    expect(at(100, 30)).toEqual(['depth']);
+    expect(at(300, 0)).toEqual(['depth']);
+    expect(at(601, 0)).toEqual([]);
   });
 
   it('of depth, thrust and heat are not told of a session that has ended with the reamer on the bone', () => {

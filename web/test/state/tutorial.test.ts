@@ -1,12 +1,19 @@
 import { describe, expect, it } from 'vitest';
 
-import { advanced, type StepName, stepNames, strayed, type TutorialSnapshot } from '../../src/state/tutorial';
+import {
+  advanced,
+  type Astray,
+  type StepName,
+  stepNames,
+  strayed,
+  type TutorialSnapshot,
+} from '../../src/state/tutorial';
 import { tutorialText } from '../../src/text/tutorial_text';
 
 const atFirst: TutorialSnapshot = {
   steering: true,
   ended: false,
-  result: false,
+  failed: false,
   canZoom: true,
   turnedDeg: 0,
   mostTurnedDeg: 0,
@@ -36,7 +43,7 @@ const asked: Readonly<Record<StepName, Partial<TutorialSnapshot>>> = {
   press: { ...pressing, depthMm: 0.6 },
   stop: { ...turning, touching: true, depthMm: 1.9, thrustN: 1 },
   withdraw: { ...turning, pushN: -20, depthMm: 1.9, drawnBackMm: 4.1 },
-  result: { besideMm: 0.3, steering: false, ended: true, result: true, depthMm: 1.9, drawnBackMm: 4.1 },
+  result: { besideMm: 0.3, steering: false, ended: true, depthMm: 1.9, drawnBackMm: 4.1 },
 };
 const at = (name: StepName) => stepNames.indexOf(name);
 const now = (changes: Partial<TutorialSnapshot>): TutorialSnapshot => ({ ...atFirst, ...changes });
@@ -79,7 +86,7 @@ describe('the tutorial', () => {
     stays('withdraw', { touching: true });
     stays('withdraw', { spindleTurns: false });
     stays('result', { ended: false });
-    stays('result', { result: false });
+    stays('result', { failed: true });
   });
 
   it('lets who cannot zoom look from the side and come back', () => {
@@ -111,6 +118,23 @@ describe('the tutorial', () => {
       expect(says(name, { ...asked[name], steering: false, ended: false }), name).toBe('notInHand');
     }
     stays('withdraw', { ended: true });
+    expect(says('result', { ...asked.result, failed: true })).toBe('endedEarly');
+  });
+
+  it('goes on saying a thing until it is clearly over', () => {
+    const goesOn = (name: StepName, said: Astray, changes: Partial<TutorialSnapshot>) =>
+      strayed(at(name), now(changes), said) === said;
+    expect(goesOn('look', 'tooEarly', { pushN: 10 })).toBe(true);
+    expect(goesOn('look', 'tooEarly', { touching: true })).toBe(false);
+    expect(goesOn('touch', 'tooHard', { ...pressing, thrustN: 22 })).toBe(true);
+    expect(goesOn('touch', 'tooHard', { ...pressing, thrustN: 19 })).toBe(false);
+    expect(goesOn('press', 'tooHard', { ...pressing, thrustN: 75 })).toBe(true);
+    expect(goesOn('press', 'tooHard', { ...pressing, thrustN: 70 })).toBe(false);
+    expect(goesOn('press', 'offAxis', { ...pressing, besideMm: 1.8 })).toBe(true);
+    expect(goesOn('press', 'offAxis', { ...pressing, besideMm: 1.4 })).toBe(false);
+    expect(goesOn('stop', 'tooShallow', { ...turning, touching: true, depthMm: 1.2, pushN: 5 })).toBe(true);
+    expect(goesOn('stop', 'tooShallow', { ...turning, touching: true, depthMm: 1.2, pushN: 12 })).toBe(false);
+    expect(goesOn('result', 'pressesOn', { ...turning, depthMm: 2, pushN: 10 })).toBe(true);
   });
 
   it('says what was done too early, too hard, beside, or too little', () => {

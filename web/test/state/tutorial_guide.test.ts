@@ -1,3 +1,4 @@
+import { batch } from '@preact/signals';
 import { Vector3 } from 'three';
 import { beforeEach, describe, expect, it } from 'vitest';
 
@@ -8,7 +9,6 @@ import { Tutorial } from '../../src/state/tutorial_guide';
 import type { Session } from '../../src/wire/rest_types';
 import type { Telemetry } from '../../src/wire/messages';
 import { hello, telemetry } from '../wire/fake_messages';
-import { someMetrics } from '../wire/some_answers';
 
 describe('Tutorial', () => {
   let store: Store;
@@ -17,6 +17,10 @@ describe('Tutorial', () => {
   let eye: { towardsEye: Vector3; distanceMm: number };
   let made: string[];
   let resets: number;
+  let stops: number;
+  let practised: string[];
+  let resetState: 'running' | 'created';
+  let shown: string;
   const kept = new Map<string, string>();
   const storage = {
     getItem: (key: string) => kept.get(key) ?? null,
@@ -24,12 +28,18 @@ describe('Tutorial', () => {
   };
 
   /** What the watcher does when a session is made. */
-  const make = (id: string, resetOf: string | null = null) => {
-    store.sessionId.value = id;
-    store.sessionState.value = 'running';
-    store.details.value = { id, reset_of: resetOf, theatre: false } as Session;
-    store.pictureComplete.value = false;
+  const make = (id: string, resetOf: string | null = null, state: 'running' | 'created' = 'running') => {
+    batch(() => {
+      store.sessionId.value = id;
+      store.sessionState.value = state;
+      store.details.value = { id, reset_of: resetOf, theatre: false } as Session;
+      store.pictureComplete.value = false;
+    });
     return Promise.resolve(id);
+  };
+  const end = (state: 'stopped' | 'fault') => {
+    store.sessionState.value = state;
+    practiceStore.sessionId.value = null;
   };
   const picture = (id: string) => {
     const message = hello({ sessionId: id });
@@ -47,7 +57,10 @@ describe('Tutorial', () => {
   beforeEach(() => {
     kept.clear();
     made = [];
-    resets = 0;
+    resets = stops = 0;
+    practised = ['a', 'd'];
+    resetState = 'running';
+    shown = '';
     store = new Store();
     practiceStore = new PracticeStore(store);
     eye = { towardsEye: new Vector3(1, 0, 0), distanceMm: 100 };
@@ -62,14 +75,18 @@ describe('Tutorial', () => {
       watcher: {
         practise: (caseId) => {
           expect(caseId).toBe('demo');
-          return make('a');
+          return make(practised.shift() ?? '');
         },
         reset: () => {
           ++resets;
-          return make('b', 'a');
+          return make('b', 'a', resetState);
+        },
+        stop: () => {
+          ++stops;
+          return Promise.resolve();
         },
       },
-      view: { eye: () => eye, reset: () => undefined },
+      view: { eye: () => eye, begin: () => (shown = 'tutorial'), end: () => (shown = 'as before') },
     });
     tutorial.keepFor('tom', storage);
   });
@@ -123,9 +140,7 @@ describe('Tutorial', () => {
     tell({ spindleOn: true, depthMm: 2.1, worldFromTool: at(-3) });
     expect(tutorial.stepName.value).toBe('result');
     expect(tutorial.remembered.value).toBeNull();
-    store.sessionState.value = 'stopped';
-    practiceStore.sessionId.value = null;
-    store.metrics.value = someMetrics();
+    end('stopped');
     expect(tutorial.step.value).toBe(stepNames.length);
     expect(tutorial.astray.value).toBeNull();
     expect(tutorial.remembered.value).toBe('finished');
@@ -158,6 +173,88 @@ describe('Tutorial', () => {
     tell({});
     expect(tutorial.session.value).toBe('b');
     expect(tutorial.astray.value).toBeNull();
+  });
+
+  it('starts another session where the old one has ended, and where a reset waits to be started', async () => {
+    practiceStore.hand.setLevel(40);
+    await tutorial.start();
+    picture('a');
+    end('stopped');
+    expect(tutorial.astray.value).toBe('endedEarly');
+    await tutorial.again();
+    expect([resets, tutorial.session.value, made]).toEqual([0, 'd', ['a', 'd']]);
+    picture('d');
+    expect(tutorial.astray.value).toBeNull();
+    resetState = 'created';
+    practised = ['e'];
+    await tutorial.again();
+    expect([resets, tutorial.session.value, practiceStore.sessionId.value]).toEqual([1, 'e', 'e']);
+    picture('e');
+    tutorial.skip();
+    expect(practiceStore.hand.levelN.value).toBe(40);
+  });
+
+  it('is never gone in between while it starts again', async () => {
+    await tutorial.start();
+    picture('a');
+    end('stopped');
+    const sessions: (string | null)[] = [];
+    tutorial.session.subscribe((id) => sessions.push(id));
+    await tutorial.again();
+    expect(sessions).toEqual(['a', 'd']);
+  });
+
+  it('does nothing to a session in another hand', async () => {
+    await tutorial.start();
+    picture('a');
+    practiceStore.sessionId.value = null;
+    expect(tutorial.astray.value).toBe('notInHand');
+    await tutorial.stop();
+    await tutorial.again();
+    expect([stops, resets, tutorial.session.value]).toEqual([0, 0, 'd']);
+    picture('d');
+    await tutorial.stop();
+    expect(stops).toBe(1);
+  });
+
+  it('does not judge a replay, nor stop it', async () => {
+    await tutorial.start();
+    picture('a');
+    batch(() => {
+      store.replayId.value = 'r';
+      store.sessionId.value = 'r';
+      store.sessionState.value = 'replaying';
+      practiceStore.sessionId.value = null;
+    });
+    expect([tutorial.session.value, tutorial.astray.value]).toEqual(['a', null]);
+    await tutorial.stop();
+    expect(stops).toBe(0);
+  });
+
+  it('says before the picture is there that the session has ended, or that the hand was refused', async () => {
+    await tutorial.start();
+    expect(tutorial.astray.value).toBeNull();
+    practiceStore.sessionId.value = null;
+    expect(tutorial.astray.value).toBe('notInHand');
+    store.sessionState.value = 'fault';
+    expect(tutorial.astray.value).toBe('endedEarly');
+  });
+
+  it('shows the reamer, and gives the picture back at the end', async () => {
+    store.reamerShown.value = false;
+    await tutorial.start();
+    picture('a');
+    expect([shown, store.reamerShown.value]).toEqual(['tutorial', true]);
+    tutorial.skip();
+    expect(shown).toBe('as before');
+  });
+
+  it('works in a browser that lets nothing be read', () => {
+    const none = () => {
+      throw new Error('denied');
+    };
+    tutorial.keepFor('ann', { getItem: none, setItem: none });
+    expect(tutorial.remembered.value).toBeNull();
   });
 
   it('goes along when its session is begun anew elsewhere, and ends with another in the picture', async () => {

@@ -36,6 +36,21 @@ describe('what the picture shows', () => {
     expect(odd.sections.axial.offsetMm).toBe(40);
   });
 
+  it('is seen from one’s own camera for a while without that being kept', () => {
+    const disk = storage();
+    const view = new ViewSettings();
+    view.keepFor('anna', disk);
+    view.change({ camera: 'trainee' });
+    view.ownForNow.value = true;
+    expect([view.camera.value, view.shown.value.camera]).toEqual(['own', 'own']);
+    expect(viewFromText(disk.kept['ream.view.anna'] ?? null).camera).toBe('trainee');
+    view.change({ camera: 'trainee' });
+    expect(view.shown.value.camera).toBe('trainee');
+    view.ownForNow.value = true;
+    view.ownForNow.value = false;
+    expect(view.shown.value.camera).toBe('trainee');
+  });
+
   it('lets no section leave its reach', () => {
     const view = new ViewSettings();
     view.changeSection('axial', { offsetMm: 41 });

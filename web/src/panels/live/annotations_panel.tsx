@@ -80,7 +80,10 @@ function AnnotationForm({ annotations }: { annotations: LiveAnnotations }) {
           else annotations.begin();
         }}
         onKeyDown={(event) => {
-          if (event.key === 'Escape') event.currentTarget.blur();
+          if (event.key !== 'Escape') return;
+          // Nothing else ends by the same press.
+          event.preventDefault();
+          event.currentTarget.blur();
         }}
       />
       <Button

@@ -23,8 +23,8 @@ interface Parts {
 }
 
 /**
- * What begins a session of one's own. Who has none yet is offered the tutorial first. After a session of a study the next attempt in it comes first, so that nobody
- * leaves a study without knowing.
+ * What begins a session of one's own. Who has none yet is offered the tutorial first. After a session of a study the
+ * next attempt in it comes first, so that nobody leaves a study without knowing.
  */
 export function StartButtons({ store, watcher, practice, practiceStore, tutorial, idle, theatreWanted }: Parts) {
   const identity = useIdentity();
@@ -64,7 +64,7 @@ export function StartButtons({ store, watcher, practice, practiceStore, tutorial
       )}
       <button
         type="button"
-        class={newcomer ? 'run-button run-first' : 'run-button run-second run-tutorial'}
+        class={newcomer ? 'run-button run-first' : 'run-button run-second'}
         data-testid="tutorial-start"
         title={tutorialText.hint}
         disabled={!idle}

@@ -7,23 +7,22 @@ import { addressOfRoute } from '../../state/route';
 import type { Store } from '../../state/store';
 import { type Astray, stepNames } from '../../state/tutorial';
 import type { Tutorial } from '../../state/tutorial_guide';
-import type { Watcher } from '../../state/watcher';
 import { appText } from '../../text/app_text';
 import { fixed } from '../../text/format';
 import { tutorialText } from '../../text/tutorial_text';
 import { Button } from '../common/button';
+import { useFocusAfter } from '../common/focus_after';
 import { TutorialGauge } from './tutorial_gauge';
 
 interface Parts {
   store: Store;
-  watcher: Watcher;
   tutorial: Tutorial;
   practice: PracticeStore;
   toPicture: () => void;
 }
 
 /** One step of the tutorial: what to do, why, and how one has left the path. */
-export function TutorialPanel({ store, watcher, tutorial, practice, toPicture }: Parts) {
+export function TutorialPanel({ store, tutorial, practice, toPicture }: Parts) {
   const name = tutorial.stepName.value;
   useEscape(() => {
     leave(tutorial);
@@ -34,7 +33,7 @@ export function TutorialPanel({ store, watcher, tutorial, practice, toPicture }:
       <Progress step={tutorial.step.value} />
       <Words store={store} tutorial={tutorial} />
       {name !== null && <TutorialGauge step={name} store={store} practice={practice} />}
-      <Buttons {...{ store, watcher, tutorial, toPicture }} />
+      <Buttons {...{ store, tutorial, toPicture }} />
     </section>
   );
 }
@@ -124,11 +123,14 @@ function Named({ text }: { text: string }) {
   return <>{text.split(/\[([^\]]+)\]/).map((part, i) => (i % 2 === 1 ? <kbd key={i}>{part}</kbd> : part))}</>;
 }
 
-function Buttons({ store, watcher, tutorial, toPicture }: Omit<Parts, 'practice'>) {
+function Buttons({ store, tutorial, toPicture }: Omit<Parts, 'practice'>) {
   const name = tutorial.stepName.value;
-  const lost = isLost(tutorial.astray.value);
+  const astray = tutorial.astray.value;
+  const lost = isLost(astray);
   const busy = store.busy.value;
   const session = tutorial.session.value;
+  // The button that ended the session is gone.
+  const review = useFocusAfter<HTMLAnchorElement>(name === null);
   return (
     <div class="tutorial-buttons">
       <Button
@@ -144,20 +146,20 @@ function Buttons({ store, watcher, tutorial, toPicture }: Omit<Parts, 'practice'
       <Button
         look={lost ? 'main' : 'plain'}
         testId="tutorial-again"
-        title={tutorialText.againHint}
+        title={astray === 'notInHand' ? tutorialText.againOwnHint : tutorialText.againHint}
         disabled={busy}
         onClick={() => void tutorial.again()}
       >
         {busy ? appText.starting : tutorialText.again}
       </Button>
       {name === null && session !== null && (
-        <a class="plain-button" href={addressOfRoute({ kind: 'review', id: session, beside: null })}>
+        <a class="plain-button" ref={review} href={addressOfRoute({ kind: 'review', id: session, beside: null })}>
           {tutorialText.review}
         </a>
       )}
-      {name === 'result' && !lost && (
-        <Button look="main" testId="tutorial-stop" disabled={busy} onClick={() => void watcher.stop()}>
-          {tutorialText.stop}
+      {name === 'result' && !lost && astray !== 'notInHand' && (
+        <Button look="main" testId="tutorial-stop" disabled={busy} onClick={() => void tutorial.stop()}>
+          {appText.stop}
         </Button>
       )}
     </div>

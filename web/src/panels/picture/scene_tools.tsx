@@ -36,14 +36,14 @@ export function SceneTools({ view, toolInFull }: Parts) {
     [view],
   );
   useLiveKeys(keys);
-  const { camera, cutAway, boneKinds, seeThrough, sections } = view.choices.value;
+  const { cutAway, boneKinds, seeThrough, sections } = view.choices.value;
   const cut = sectionNames.some((name) => sections[name].on);
   return (
     <>
       <ViewToggle
         id="trainee-camera"
         letter="V"
-        on={camera === 'trainee'}
+        on={view.camera.value === 'trainee'}
         hint={liveText.traineeCameraHint}
         onToggle={() => actions.v?.(view)}
       >
@@ -117,7 +117,10 @@ function SectionsPanel({ view, toolInFull }: Parts) {
       aria-label={liveText.sections}
       data-testid="sections-panel"
       onKeyDown={(event) => {
-        if (event.key === 'Escape') open.value = false;
+        if (event.key !== 'Escape') return;
+        // Nothing else ends by the same press.
+        event.preventDefault();
+        open.value = false;
       }}
     >
       <label class="section-row">
@@ -232,7 +235,7 @@ const moveSection = (view: ViewSettings, byMm: number) => {
 
 /** By key; none of them is one of the practising hand's. */
 const actions: Record<string, (view: ViewSettings) => void> = {
-  v: (view) => view.change({ camera: view.choices.value.camera === 'own' ? 'trainee' : 'own' }),
+  v: (view) => view.change({ camera: view.camera.value === 'own' ? 'trainee' : 'own' }),
   c: (view) => view.change({ cutAway: !view.choices.value.cutAway }),
   k: (view) => view.change({ boneKinds: !view.choices.value.boneKinds }),
   x: (view) => view.change({ seeThrough: !view.choices.value.seeThrough }),
