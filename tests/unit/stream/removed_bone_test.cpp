@@ -111,8 +111,7 @@ TEST(RemovedBone, IsTheDepthUnderTheFirstSurfaceAndNoMoreThanIsGone) {
   for (size_t i = 0; i < vertices.size(); ++i) {
     const Vec3 at = place_of(vertices[i], 1);
     const double was = trilinear(before, at), lost = std::min(was - trilinear(now, at), was - 127.5) / 127.0;
-    EXPECT_EQ(level_of(packed, i),
-              static_cast<unsigned>(std::clamp(std::floor(15.0 * lost + 1e-9), 0.0, 15.0)))
+    EXPECT_EQ(levels[i], static_cast<int>(std::clamp(std::floor(15.0 * lost + 1e-9), 0.0, 15.0)))
         << at.transpose() << ", seed " << seed;
   }
 }
