@@ -23,7 +23,7 @@ async function serious(page: Page): Promise<string[]> {
 }
 
 test('axe finds nothing serious on any page, in light and dark, and all look as they did', async ({ page }, info) => {
-  test.setTimeout(420_000);
+  test.setTimeout(600_000);
   const seen: string[] = [];
   await goThroughEveryPage(page, here.server.url, async (name) => {
     for (const colorScheme of ['light', 'dark'] as const) {

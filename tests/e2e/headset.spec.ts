@@ -90,6 +90,7 @@ test('a recorded session is seen in a headset', async ({ page }, info) => {
     .poll(async () => Number(await page.getByTestId('removed-volume').textContent()), { timeout: 90_000 })
     .toBeGreaterThan(20);
   await page.getByTestId('stop').click();
+  await expect(page.getByTestId('session-state')).toHaveAttribute('data-state', 'stopped', { timeout: 60_000 });
   await page.goto(`${here.server.url}/#/review/${id}`);
   await expect(page.getByTestId('bone-canvas')).toBeVisible({ timeout: 60_000 });
   // Also where the headset is put on before the bone has come.
