@@ -196,7 +196,7 @@ TriangleMesh scapula_surface(const PhantomParams& params, double sample_mm) {
   for (size_t i = 0; i < coverage.size(); ++i) {
     const Vec3 world = grid.world_from_grid.point(grid.centre_mm(grid.coordinates(i)));
     const double inside = inside_share(shape.scapula_mm(left ? mirrored(world) : world), sample_mm);
-    coverage[i] = static_cast<uint8_t>(255.0 * inside + 0.5);
+    coverage[i] = static_cast<uint8_t>(std::lround(255.0 * inside));
   }
   return surface::whole_surface(grid, coverage.data()).transformed(grid.world_from_grid);
 }
