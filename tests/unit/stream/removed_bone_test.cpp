@@ -103,9 +103,10 @@ TEST(RemovedBone, IsTheDepthUnderTheFirstSurfaceAndNoMoreThanIsGone) {
   }
   const Followed followed(before, now);
   std::vector<surface::BlockVertex> vertices;
+  vertices.reserve(3000);
   for (int i = 0; i < 3000; ++i)
     vertices.push_back({static_cast<uint16_t>(random() % 33792), static_cast<uint16_t>(random() % 33792),
-                        static_cast<uint16_t>(17 * 1024 + random() % 6144), 0, 127});
+                        static_cast<uint16_t>(17408 + random() % 6144), 0, 127});
   const std::vector<uint8_t> levels = followed.removed.levels(vertices, 1);
   ASSERT_EQ(levels.size(), vertices.size());
   for (size_t i = 0; i < vertices.size(); ++i) {
