@@ -50,18 +50,19 @@ net::Response get_volume(const Services& services, const net::Request& request) 
   return net::file_response(request, {file.path(), "application/octet-stream", id + ".nrrd"});
 }
 
-net::Response get_case_mesh(const Services& services, const net::Request& request) {
-  net::Response response =
-      net::bytes_response(200, "application/ply", net::share(services.cases.mesh(id_of(request))));
+/// Kept by no cache, as the case may be made again.
+net::Response ply_response(std::string ply) {
+  net::Response response = net::bytes_response(200, "application/ply", net::share(std::move(ply)));
   response.headers.emplace_back("Cache-Control", "no-store");
   return response;
 }
 
+net::Response get_case_mesh(const Services& services, const net::Request& request) {
+  return ply_response(services.cases.mesh(id_of(request)));
+}
+
 net::Response get_surroundings(const Services& services, const net::Request& request) {
-  net::Response response =
-      net::bytes_response(200, "application/ply", net::share(services.cases.surroundings(id_of(request))));
-  response.headers.emplace_back("Cache-Control", "no-store");
-  return response;
+  return ply_response(services.cases.surroundings(id_of(request)));
 }
 
 }  // namespace

@@ -1,13 +1,4 @@
-import {
-  BufferAttribute,
-  BufferGeometry,
-  DataTexture,
-  Int8BufferAttribute,
-  Mesh,
-  type MeshStandardMaterial,
-  NearestFilter,
-  type Plane,
-} from 'three';
+import { DataTexture, Int8BufferAttribute, Mesh, type MeshStandardMaterial, NearestFilter, type Plane } from 'three';
 
 import { type MapScale, paletteOf } from '../state/review/deviation_scale';
 import type { DeviationCode } from '../wire/review_api';
@@ -15,6 +6,7 @@ import type { SortedSurface } from '../wire/surface_worker';
 import { boneMaterial, lookOfBone } from './bone_material';
 import type { BoneReplacement } from './bone_view';
 import { haveBoxes } from './line_hits';
+import { surfaceGeometry } from './surface_geometry';
 
 const declareInVertex = `
 attribute float deviation;
@@ -57,10 +49,7 @@ export class DeviationSurface implements BoneReplacement {
   private code: DeviationCode = { stepMm: 1, rangeMm: 127, unknown: -128 };
 
   constructor(surface: SortedSurface) {
-    const geometry = new BufferGeometry();
-    geometry.setAttribute('position', new BufferAttribute(surface.positions, 3));
-    geometry.setAttribute('normal', new BufferAttribute(surface.normals, 3));
-    geometry.setIndex(new BufferAttribute(surface.indices, 1));
+    const geometry = surfaceGeometry(surface);
     geometry.computeBoundingSphere();
     haveBoxes(geometry, surface.boxes);
     this.palette.minFilter = NearestFilter;

@@ -1,6 +1,5 @@
 import { effect, type ReadonlySignal, signal } from '@preact/signals';
 import {
-  BufferAttribute,
   BufferGeometry,
   Group,
   Line,
@@ -27,9 +26,11 @@ import { MeshLoader } from '../wire/mesh_loader';
 import type { Surface } from '../wire/ply';
 import { OrbitCamera } from './orbit_camera';
 import { type ContextWatch, watchContext } from './context_watch';
+import { wholeBoneColour } from './cut_bone';
 import { FrameRequest } from './frame_request';
 import { OperatingLights } from './lights';
 import { planMeshes } from './plan_meshes';
+import { surfaceGeometry } from './surface_geometry';
 import { planeColours } from './slice_view';
 
 const pixelRatioMax = 2;
@@ -67,7 +68,7 @@ export class SurfaceView {
   private readonly lights: OperatingLights;
   private readonly orbit: OrbitCamera;
   private readonly loader = new MeshLoader();
-  private readonly boneMaterial = new MeshStandardMaterial({ color: 0xf2e8d5, roughness: 0.72, metalness: 0 });
+  private readonly boneMaterial = new MeshStandardMaterial({ color: wholeBoneColour, roughness: 0.72, metalness: 0 });
   private bone: Mesh | null = null;
   private surface: Surface | null = null;
   /** Of which state of the case the surface was asked for. */
@@ -187,11 +188,7 @@ export class SurfaceView {
     }
     this.surface = surface;
     if (surface !== null) {
-      const geometry = new BufferGeometry();
-      geometry.setAttribute('position', new BufferAttribute(surface.positions, 3));
-      geometry.setAttribute('normal', new BufferAttribute(surface.normals, 3));
-      geometry.setIndex(new BufferAttribute(surface.indices, 1));
-      this.bone = new Mesh(geometry, this.boneMaterial);
+      this.bone = new Mesh(surfaceGeometry(surface), this.boneMaterial);
       this.scene.add(this.bone);
       if (first) this.look('side');
     }

@@ -1,8 +1,9 @@
-import { BufferAttribute, BufferGeometry, Group, Mesh, type Plane, Vector3 } from 'three';
+import { Group, Mesh, type Plane, Vector3 } from 'three';
 
 import type { PlanFrame } from '../practice/plan_frame';
 import type { Surface } from '../wire/ply';
 import { boneMaterial, lookOfBone } from './bone_material';
+import { surfaceGeometry } from './surface_geometry';
 
 /**
  * What a reamer on the planned axis may come to is described by the streamed bone alone: as wide as this about the axis and
@@ -49,11 +50,7 @@ export class SurroundingsView {
       this.mesh = null;
     }
     if (surface === null || plan === null) return;
-    const geometry = new BufferGeometry();
-    geometry.setAttribute('position', new BufferAttribute(surface.positions, 3));
-    geometry.setAttribute('normal', new BufferAttribute(surface.normals, 3));
-    geometry.setIndex(new BufferAttribute(beyondReach(surface, plan.entry, plan.axis), 1));
-    this.mesh = new Mesh(geometry, this.material);
+    this.mesh = new Mesh(surfaceGeometry(surface, beyondReach(surface, plan.entry, plan.axis)), this.material);
     this.group.add(this.mesh);
   }
 }
