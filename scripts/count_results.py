@@ -1,7 +1,8 @@
 """Sums the results that scripts/test left in a folder; the last line printed is the total.
 
 A suite is known by its <suite>.exit file (the exit code of its program). Suites that leave a results file are
-counted test by test; the others (formatting, lint) count as one test each. Exit 1 when anything failed, when a
+counted test by test; the others (formatting, lint) count as one test each. What a failed suite said last (<suite>.log)
+is printed once more before the totals, as a long log is often cut at its beginning. Exit 1 when anything failed, when a
 suite ran no test, or when a program failed although its tests say they passed.
 """
 
@@ -107,12 +108,30 @@ def read_suite(folder: Path, suite: str) -> Counts:
     return counts
 
 
+LAST_LINES = 100
+LONGEST_LINE = 500
+
+
+def print_last_words(folder: Path, suite: str) -> None:
+    log = folder / f"{suite}.log"
+    if not log.is_file():
+        return
+    print(f"== what {suite} said last")
+    for line in log.read_text(errors="replace").splitlines()[-LAST_LINES:]:
+        print(line[:LONGEST_LINE])
+
+
 def main() -> int:
     folder = Path(sys.argv[1])
     suites = sorted(path.stem for path in folder.glob("*.exit"))
+    read = {suite: read_suite(folder, suite) for suite in suites}
+    # What is counted test by test names what failed; ctest and the browser say much more than fits.
+    for suite, counts in read.items():
+        if counts.failed and suite not in READERS:
+            print_last_words(folder, suite)
+    print("== results")
     passed = failed = skipped = 0
-    for suite in suites:
-        counts = read_suite(folder, suite)
+    for suite, counts in read.items():
         print(f"{suite}: {counts.passed} passed, {len(counts.failed)} failed, {len(counts.skipped)} skipped")
         for line in counts.skipped:
             print(f"  skipped {line}")

@@ -51,7 +51,7 @@ net::Response get_volume(const Services& services, const net::Request& request) 
 }
 
 /// Kept by no cache, as the case may be made again.
-net::Response ply_response(std::string ply) {
+net::Response ply_response(std::string&& ply) {
   net::Response response = net::bytes_response(200, "application/ply", net::share(std::move(ply)));
   response.headers.emplace_back("Cache-Control", "no-store");
   return response;
