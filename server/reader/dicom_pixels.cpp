@@ -50,9 +50,23 @@ bool starts_frame(unsigned marker) {
   return jpeg || marker == 0xf7;
 }
 
-/// Segments up to the frame header (SOF): marker, length, content.
+constexpr unsigned starts_scan = 0xda;
+
+/// Of a frame header (SOF) without its marker.
+bool is_frame_of(std::string_view segment, int columns, int rows, int bytes_a_value) {
+  constexpr size_t one_component = 11;
+  if (segment.size() != one_component) return false;
+  const unsigned precision = byte_at(segment, 2);
+  return precision >= 2 && precision <= 16 && unpacked_bytes_of(precision) == bytes_a_value &&
+         two_at(segment, 3) == static_cast<unsigned>(rows) &&
+         two_at(segment, 5) == static_cast<unsigned>(columns) && byte_at(segment, 7) == 1;
+}
+
+/// Segments (marker, length, content) one after the other up to the scan, a single frame header among them.
+/// The library would look for the next marker where one ends, and so read other headers than these.
 std::string jpeg_problem(std::string_view bytes, int columns, int rows, int bytes_a_value) {
   size_t at = 2;
+  bool has_frame = false;
   while (at + 4 <= bytes.size()) {
     if (byte_at(bytes, at) != 0xff) return damaged;
     const unsigned marker = byte_at(bytes, at + 1);
@@ -62,14 +76,11 @@ std::string jpeg_problem(std::string_view bytes, int columns, int rows, int byte
     }
     const size_t length = two_at(bytes, at + 2);
     if (length < 2 || at + 2 + length > bytes.size()) return damaged;
+    if (marker == starts_scan) return has_frame ? "" : damaged;
     if (starts_frame(marker)) {
-      constexpr size_t one_component = 11;
-      if (length != one_component) return contradiction(false);
-      const unsigned precision = byte_at(bytes, at + 4);
-      return contradiction(
-          precision >= 2 && precision <= 16 && unpacked_bytes_of(precision) == bytes_a_value &&
-          two_at(bytes, at + 5) == static_cast<unsigned>(rows) &&
-          two_at(bytes, at + 7) == static_cast<unsigned>(columns) && byte_at(bytes, at + 9) == 1);
+      if (has_frame || !is_frame_of(bytes.substr(at + 2, length), columns, rows, bytes_a_value))
+        return contradiction(false);
+      has_frame = true;
     }
     at += 2 + length;
   }

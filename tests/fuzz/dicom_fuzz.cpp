@@ -1,6 +1,7 @@
 // A DICOM file: its elements, what they say of a slice, its pixels, and the series of that one file.
 #include "core/error.hpp"
 #include "fuzz_file.hpp"
+#include "library_assert.hpp"
 #include "reader/ct_files.hpp"
 #include "reader/dicom_file.hpp"
 #include "reader/dicom_slice.hpp"
@@ -30,6 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace ream;
   fuzz::Input input(data, size);
   const auto path = fuzz::folder().write("slice.dcm", input.rest());
+  if (setjmp(fuzz::after_library_assert) != 0) return 0;
   try {
     fuzz::read(path, size);
     const ct::HuVolume volume = reader::read_ct_files(path);

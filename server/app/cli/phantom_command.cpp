@@ -2,12 +2,14 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/cli/commands.hpp"
 #include "case/landmarks.hpp"
 #include "core/atomic_file.hpp"
 #include "core/file.hpp"
 #include "core/units.hpp"
+#include "ct/phantom/individual.hpp"
 #include "ct/phantom/phantom_case.hpp"
 #include "ct/read/write_volume.hpp"
 
@@ -16,22 +18,24 @@ namespace {
 
 struct PhantomOptions {
   std::filesystem::path out;
-  ct::PhantomParams params;
-  double version_deg = -2.0, inclination_deg = 4.2, spacing_mm = 0.0;
-  std::string side = "right", type = "A1", format = "dicom", preset;
+  std::optional<uint64_t> individual;
+  std::optional<double> version_deg, inclination_deg, radius_mm, spacing_mm;
+  double noise_hu = ct::PhantomParams{}.noise_hu;
+  std::optional<uint64_t> random_seed;
+  std::string side = "right", type = "A1", shape = "anatomical", format = "dicom", preset;
 };
 
-void write_volume(const ct::HuVolume& volume, const PhantomOptions& options,
+void write_volume(const ct::HuVolume& volume, const PhantomOptions& options, uint64_t random_seed,
                   const std::filesystem::path& folder) {
   if (options.format == "dicom")
-    ct::write_dicom_folder(volume, folder, options.params.random_seed);
+    ct::write_dicom_folder(volume, folder, random_seed);
   else
     ct::write_volume_file(volume, folder / (options.format == "nrrd" ? "ct.nrrd" : "ct.nii.gz"));
 }
 
-void phantom(const PhantomOptions& options, const GlobalOptions& global) {
-  AtomicFolder folder(options.out);
-  ct::PhantomParams params = options.params;
+/// One of many people, or the mean shoulder; then what was asked for.
+ct::PhantomParams params_of(const PhantomOptions& options) {
+  ct::PhantomParams params = options.individual ? ct::individual(*options.individual) : ct::PhantomParams{};
   if (!options.preset.empty()) {
     const ct::PhantomParams preset = ct::phantom_preset(options.preset).params;
     params.field_mm = preset.field_mm;
@@ -41,11 +45,24 @@ void phantom(const PhantomOptions& options, const GlobalOptions& global) {
   }
   params.side = case_::side_from_text(options.side);
   params.type = ct::phantom_type_from_text(options.type);
-  params.version_rad = radians_from_degrees(options.version_deg);
-  params.inclination_rad = radians_from_degrees(options.inclination_deg);
-  if (options.spacing_mm > 0.0) params.spacing_mm = Vec3::Constant(options.spacing_mm);
+  if (options.shape == "simple")
+    params.anatomical.reset();
+  else if (!params.anatomical)
+    params.anatomical = ct::AnatomicalSizes{};
+  if (options.version_deg) params.version_rad = radians_from_degrees(*options.version_deg);
+  if (options.inclination_deg) params.inclination_rad = radians_from_degrees(*options.inclination_deg);
+  if (options.radius_mm) params.glenoid_radius_mm = *options.radius_mm;
+  if (options.spacing_mm) params.spacing_mm = Vec3::Constant(*options.spacing_mm);
+  params.noise_hu = options.noise_hu;
+  if (options.random_seed) params.random_seed = *options.random_seed;
+  return params;
+}
+
+void phantom(const PhantomOptions& options, const GlobalOptions& global) {
+  AtomicFolder folder(options.out);
+  const ct::PhantomParams params = params_of(options);
   const ct::Phantom made = ct::make_phantom(params);
-  write_volume(made.volume, options, folder.path());
+  write_volume(made.volume, options, params.random_seed, folder.path());
   const nlohmann::json truth = ct::to_json(made.truth);
   write_json_file(folder.path() / "ground_truth.json", truth);
   case_::save_landmarks(made.truth.landmarks, folder.path());
@@ -74,13 +91,12 @@ void add_phantom_command(CLI::App& app, GlobalOptions& global) {
       ->add_option("--out", options->out,
                    "Folder for the CT, ground_truth.json and landmarks.json; must be new or empty")
       ->required();
-  command->add_option("--version-deg", options->version_deg, "Glenoid version, retroversion negative")
-      ->capture_default_str();
-  command->add_option("--inclination-deg", options->inclination_deg, "Glenoid inclination, superior positive")
-      ->capture_default_str();
-  command
-      ->add_option("--radius-mm", options->params.glenoid_radius_mm, "Radius of the bony articular surface")
-      ->capture_default_str();
+  command->add_option("--version-deg", options->version_deg,
+                      "Glenoid version, retroversion negative. Default: -2, or the individual's");
+  command->add_option("--inclination-deg", options->inclination_deg,
+                      "Glenoid inclination, superior positive. Default: 4.2, or the individual's");
+  command->add_option("--radius-mm", options->radius_mm,
+                      "Radius of the bony articular surface. Default: 35, or the individual's");
   command->add_option("--spacing-mm", options->spacing_mm, "Voxel size. Default: 0.668 x 0.668 x 0.625")
       ->check(CLI::Range(0.05, 10.0));
   command->add_option("--side", options->side, "left or right")
@@ -91,6 +107,19 @@ void add_phantom_command(CLI::App& app, GlobalOptions& global) {
                    "A1, A2 (central wear), B2 (biconcave), osteophytes (at the rim) or osteoporotic")
       ->check(CLI::IsMember({"A1", "A2", "B2", "osteophytes", "osteoporotic"}))
       ->capture_default_str();
+  command
+      ->add_option(
+          "--shape", options->shape,
+          "anatomical, or simple: body, acromion, coracoid and humerus of plain bars and plates, around "
+          "the same glenoid")
+      ->check(CLI::IsMember({"anatomical", "simple"}))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--individual", options->individual,
+          "The shoulder of one of many people, by number: sizes and angles drawn from published means and "
+          "spreads")
+      ->check(CLI::Range(uint64_t{1}, uint64_t{1'000'000'000}));
   command->add_option("--format", options->format, "dicom, nrrd or nifti")
       ->check(CLI::IsMember({"dicom", "nrrd", "nifti"}))
       ->capture_default_str();
@@ -98,10 +127,10 @@ void add_phantom_command(CLI::App& app, GlobalOptions& global) {
       ->add_option("--preset", options->preset,
                    "Field and voxel size of a known case instead of the whole shoulder")
       ->check(CLI::IsMember({"demo", "thesis-5-4-2"}));
-  command->add_option("--noise-hu", options->params.noise_hu, "Standard deviation of the noise")
+  command->add_option("--noise-hu", options->noise_hu, "Standard deviation of the noise")
       ->capture_default_str();
-  command->add_option("--random-seed", options->params.random_seed, "Seed of the noise")
-      ->capture_default_str();
+  command->add_option("--random-seed", options->random_seed,
+                      "Seed of the noise. Default: 1, or the individual's number");
   command->callback([options, &global] { phantom(*options, global); });
 }
 

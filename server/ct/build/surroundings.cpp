@@ -12,6 +12,9 @@ namespace ream::ct {
 namespace {
 
 constexpr double overlap_mm = 1.0;
+// The grid's own surface is closed along its sides, with a rim that faces their way: what lies around covers
+// it.
+constexpr double cover_mm = 0.25, cover_reach_mm = 2.0;
 /// Wider than any reamer of the library, and deeper than any reaming; web/src/scene/surroundings_view.ts has
 /// them, too.
 constexpr double reamers_reach_mm = 24.0, reamers_depth_mm = 12.0;
@@ -52,13 +55,27 @@ std::vector<Vec3f> smooth_normals(const TriangleMesh& mesh) {
   return normals;
 }
 
+/// How far a point lies from the nearest side of a box, in it or beside it.
+double distance_to_side(const Aabb& box, const Vec3& p) {
+  const Vec3 beyond = (box.min - p).cwiseMax(p - box.max);
+  return beyond.maxCoeff() > 0.0 ? beyond.cwiseMax(0.0).norm() : -beyond.maxCoeff();
+}
+
 }  // namespace
 
 TriangleMesh surroundings_of(const TriangleMesh& bone_world, const voxel::VoxelGrid& grid) {
   const Pose grid_from_world = grid.world_from_grid.inverse();
-  const Aabb box = grid.bounds_mm().grown(-overlap_mm);
-  return without(bone_world,
-                 [&](const Vec3& world_mm) { return box.contains(grid_from_world.point(world_mm)); });
+  const Aabb sides = grid.bounds_mm(), box = sides.grown(-overlap_mm);
+  TriangleMesh rest = without(
+      bone_world, [&](const Vec3& world_mm) { return box.contains(grid_from_world.point(world_mm)); });
+  const std::vector<Vec3f> normals = smooth_normals(rest);
+  for (size_t i = 0; i < normals.size(); ++i) {
+    Vec3f& vertex = rest.vertices_mm[i];
+    const double from_side = distance_to_side(sides, grid_from_world.point(vertex.cast<double>()));
+    const double cover = cover_mm * std::max(0.0, 1.0 - from_side / cover_reach_mm);
+    vertex += static_cast<float>(cover) * normals[i];
+  }
+  return rest;
 }
 
 TriangleMesh scapula_around(const Workup& workup, const std::vector<int16_t>& hu,

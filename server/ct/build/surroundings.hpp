@@ -12,8 +12,8 @@ namespace ream::ct {
 inline constexpr const char* surroundings_file = "surroundings.ply";
 
 /// What of a bone's surface (world frame, outward normals) lies around the part that a grid holds: triangles
-/// are left out that lie in the grid's box with all corners (less a millimetre, which makes the gap along its
-/// sides narrow). Empty where the box holds all.
+/// are left out that lie in the grid's box with all corners (less a millimetre). Along its sides what is left
+/// stands out by up to a quarter of a millimetre, and so covers the seam. Empty where the box holds all.
 TriangleMesh surroundings_of(const TriangleMesh& bone_world, const voxel::VoxelGrid& grid);
 
 /// The same of the segmented scapula of a CT, at the CT's resolution or half of it. Error conflict without

@@ -192,13 +192,22 @@ TriangleMesh scapula_surface(const PhantomParams& params, double sample_mm) {
   Vec3 origin = shape.truth().glenoid.centre_mm + p.field_mm.min;
   if (left) origin.x() = -(origin.x() + grid.dims.x() * sample_mm);
   grid.world_from_grid.translation_mm = origin;
+  // Over four samples: corners of the surface lie between two values that both still say how far it is. Then
+  // they are put onto it.
+  const double ramp_mm = 4.0 * sample_mm;
   std::vector<uint8_t> coverage(grid.voxel_count());
   for (size_t i = 0; i < coverage.size(); ++i) {
     const Vec3 world = grid.world_from_grid.point(grid.centre_mm(grid.coordinates(i)));
-    const double inside = inside_share(shape.scapula_mm(left ? mirrored(world) : world), sample_mm);
+    const double inside = inside_share(shape.scapula_mm(left ? mirrored(world) : world), ramp_mm);
     coverage[i] = static_cast<uint8_t>(std::lround(255.0 * inside));
   }
-  return surface::whole_surface(grid, coverage.data()).transformed(grid.world_from_grid);
+  TriangleMesh surface = surface::whole_surface(grid, coverage.data()).transformed(grid.world_from_grid);
+  for (Vec3f& vertex : surface.vertices_mm) {
+    const Vec3 world = vertex.cast<double>();
+    const Vec3 exact = shape.on_scapula(left ? mirrored(world) : world);
+    vertex = (left ? mirrored(exact) : exact).cast<float>();
+  }
+  return surface;
 }
 
 std::function<double(const Vec3&)> true_density_g_cc(const PhantomParams& params) {

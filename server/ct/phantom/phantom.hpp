@@ -7,6 +7,7 @@
 #include "case/case.hpp"
 #include "case/landmarks.hpp"
 #include "ct/hu_volume.hpp"
+#include "ct/phantom/anatomical_scapula.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace ream::ct {
@@ -31,6 +32,9 @@ PhantomType phantom_type_from_text(const std::string& text);
 struct PhantomParams {
   case_::Side side = case_::Side::right;
   PhantomType type = PhantomType::a1;
+  /// With it, body, acromion, coracoid and humerus look like a shoulder's; without, they are the simplest
+  /// ones that a CT can be segmented with. Face, vault and neck are the same.
+  std::optional<AnatomicalSizes> anatomical;
   double version_rad = -0.0349;     ///< 2 degrees of retroversion
   double inclination_rad = 0.0733;  ///< 4.2 degrees superior
   double glenoid_radius_mm = 35.0;  ///< of the bony articular surface; 25 to 60

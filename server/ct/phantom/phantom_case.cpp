@@ -75,6 +75,7 @@ PhantomPreset phantom_preset(const std::string& name) {
   PhantomPreset preset;
   PhantomParams& p = preset.params;
   if (name == "demo") {
+    p.anatomical = AnatomicalSizes{};
     p.spacing_mm = Vec3::Constant(0.4);
     p.field_mm = {{-8.0, -16.0, -23.2}, {33.6, 22.4, 23.2}};
     preset.upsample = 2;

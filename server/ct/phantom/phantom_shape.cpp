@@ -5,29 +5,17 @@
 #include <cmath>
 
 #include "core/units.hpp"
+#include "ct/phantom/implicit_solids.hpp"
 
 namespace ream::ct {
 namespace {
-
-/// Polynomial maximum and minimum that round the edge between two surfaces over `width`.
-double rounded_max(double a, double b, double width) {
-  const double h = std::max(width - std::abs(a - b), 0.0) / width;
-  return std::max(a, b) + 0.25 * h * h * width;
-}
-double rounded_min(double a, double b, double width) { return -rounded_max(-a, -b, width); }
-
-/// Distance to the segment a-b with a radius that goes linearly from ra to rb.
-double capsule(const Vec3& p, const Vec3& a, const Vec3& b, double ra, double rb) {
-  const Vec3 ab = b - a;
-  const double t = std::clamp((p - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
-  return (p - a - t * ab).norm() - (ra + t * (rb - ra));
-}
 
 // Where the glenoid lies in the world of a right shoulder, LPS mm.
 const Vec3 glenoid_centre_mm(-150.0, -10.0, 20.0);
 
 constexpr double medial_end_mm = 103.0;
 
+constexpr double min_gradient = 0.3;
 constexpr double rim_rounding_mm = 0.8, joint_rounding_mm = 3.0;
 constexpr double head_radius_mm = PhantomShape::head_radius_mm, shaft_radius_mm = 12.0;
 
@@ -40,26 +28,6 @@ double settled(double v) { return std::floor(v * 1099511627776.0 + 0.5) / 109951
 double sine(double a) { return settled(std::sin(a)); }
 double cosine(double a) { return settled(std::cos(a)); }
 double tangent(double a) { return settled(std::tan(a)); }
-
-double triangle_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 ab = b - a, bc = c - b, ca = a - c, normal = ab.cross(-ca);
-  const bool above = normal.cross(ab).dot(p - a) >= 0 && normal.cross(bc).dot(p - b) >= 0 &&
-                     normal.cross(ca).dot(p - c) >= 0;
-  if (above) return std::abs(normal.dot(p - a)) / normal.norm();
-  return std::min({capsule(p, a, b, 0, 0), capsule(p, b, c, 0, 0), capsule(p, c, a, 0, 0)});
-}
-
-/// Smooth step between knots: value at `x` of a piecewise curve with flat tangents at its knots.
-template <size_t N>
-double eased(const double (&at)[N], const double (&value)[N], double x) {
-  if (x <= at[0]) return value[0];
-  for (size_t i = 1; i < N; ++i)
-    if (x < at[i]) {
-      const double t = (x - at[i - 1]) / (at[i] - at[i - 1]);
-      return value[i - 1] + (value[i] - value[i - 1]) * t * t * (3.0 - 2.0 * t);
-    }
-  return value[N - 1];
-}
 
 // Landmarks in the scapular frame, mm.
 const Vec3 spine_root(-105.0, 0.0, 0.0), inferior_angle(-88.0, -108.0, 0.0);
@@ -98,6 +66,7 @@ double version_of(const Vec3& normal, const Vec3& lateral, const Vec3& posterior
 }  // namespace
 
 PhantomShape::PhantomShape(const PhantomParams& params) : params_(params), centre_(glenoid_centre_mm) {
+  if (params.anatomical) anatomical_.emplace(*params.anatomical);
   const double c = cosine(params.scapular_plane_rad), s = sine(params.scapular_plane_rad);
   lateral_ = Vec3(-c, -s, 0.0);
   superior_ = Vec3::UnitZ();
@@ -129,6 +98,10 @@ double PhantomShape::posterior_mm(const Vec3& world_mm) const {
   return -(world_mm - centre_).dot(face_anterior_);
 }
 
+Vec3 PhantomShape::in_scapula(const Vec3& offset) const {
+  return {offset.dot(lateral_), offset.dot(superior_), offset.dot(posterior_)};
+}
+
 /// Vault, neck and body: egg-shaped sections whose half axes change with the depth along -x. Scaled to about
 /// mm.
 double PhantomShape::body_value(const Vec3& offset) const {
@@ -155,53 +128,81 @@ double PhantomShape::body_value(const Vec3& offset) const {
   const double from_widest = s + PhantomShape::widest_below_middle * height;
   const double along = from_widest / (from_widest < 0.0 ? lower : upper), across = t / half_width;
   const double section = (std::sqrt(along * along + across * across) - 1.0) * half_width;
-  return rounded_max(section, depth - medial_end_mm, joint_rounding_mm);
+  const double simple = rounded_max(section, depth - medial_end_mm, joint_rounding_mm);
+  const double share = anatomical_ ? AnatomicalScapula::body_share(depth) : 0.0;
+  if (share == 0.0) return simple;
+  return (1.0 - share) * simple + share * anatomical_->body_value(in_scapula(offset));
 }
 
 /// Spine, acromion and coracoid, scapular frame.
 double PhantomShape::processes_value(const Vec3& p) const {
-  const Vec3 notch(-14.0, 12.0, 20.0), corner(8.0, 26.0, 34.0), tip(30.0, 34.0, 8.0);
-  const Vec3 neck_top(-28.0, 10.0, 2.0), spine_start(-103.0, 0.0, 1.0);
-  double d = triangle_distance(p, spine_start, neck_top, notch) - 1.6;
-  d = rounded_min(d, capsule(p, spine_start, notch, 2.5, 4.5), joint_rounding_mm);
-  d = rounded_min(d, capsule(p, notch, corner, 4.5, 5.5), joint_rounding_mm);
+  if (anatomical_) return anatomical_->processes_value(p);
+  const Vec3 corner(8.0, 26.0, 34.0), tip(30.0, 34.0, 8.0);
+  const Vec3 coracoid_bend(-10.0, 32.0, -14.0), coracoid_tip(10.0, 27.0, -34.0);
+  const ProcessBases bases = process_bases(p);
+  double d = rounded_min(bases.spine, bases.acromion, joint_rounding_mm);
   d = rounded_min(d, capsule(p, corner, tip, 5.5, 5.0), joint_rounding_mm);
-  const Vec3 coracoid_base(-16.0, 15.0, -2.0), coracoid_bend(-10.0, 32.0, -14.0),
-      coracoid_tip(10.0, 27.0, -34.0);
-  d = std::min(d, rounded_min(capsule(p, coracoid_base, coracoid_bend, 6.0, 6.0),
-                              capsule(p, coracoid_bend, coracoid_tip, 6.0, 4.5), joint_rounding_mm));
-  return d;
+  return std::min(
+      d, rounded_min(bases.coracoid, capsule(p, coracoid_bend, coracoid_tip, 6.0, 4.5), joint_rounding_mm));
 }
 
 double PhantomShape::scapula_value(const Vec3& world_mm) const {
   const Vec3 offset = world_mm - centre_;
-  const Vec3 in_scapula(offset.dot(lateral_), offset.dot(superior_), offset.dot(posterior_));
   const double above = offset.dot(face_normal_);
   double d = rounded_max(body_value(offset), -depth_under_face_mm(world_mm), rim_rounding_mm);
   d = std::max(d, above - 0.5 * params_.glenoid_radius_mm);
   if (params_.type == PhantomType::osteophytes)
     d = rounded_min(d, osteophytes_value(world_mm), rim_rounding_mm);
-  return rounded_min(d, processes_value(in_scapula), joint_rounding_mm);
+  return rounded_min(d, processes_value(in_scapula(offset)), joint_rounding_mm);
 }
 
-double PhantomShape::scapula_mm(const Vec3& world_mm) const {
-  constexpr double near_mm = 6.0, step = 0.01;
-  const double value = scapula_value(world_mm);
-  // Far from the surface the scale of the implicit function does not matter.
-  if (std::abs(value) > near_mm) return value;
+Vec3 PhantomShape::scapula_gradient(const Vec3& world_mm) const {
+  constexpr double step = 0.01;
   Vec3 gradient;
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3 along = step * Vec3::Unit(axis);
     gradient[axis] = (scapula_value(world_mm + along) - scapula_value(world_mm - along)) / (2.0 * step);
   }
-  return value / std::max(0.3, gradient.norm());
+  return gradient;
+}
+
+double PhantomShape::scapula_mm(const Vec3& world_mm) const {
+  constexpr double near_mm = 6.0;
+  const double value = scapula_value(world_mm);
+  // Far from the surface the scale of the implicit function does not matter.
+  if (std::abs(value) > near_mm) return value;
+  return value / std::max(min_gradient, scapula_gradient(world_mm).norm());
+}
+
+Vec3 PhantomShape::on_scapula(const Vec3& near_mm) const {
+  constexpr int steps = 2;
+  constexpr double max_step_mm = 0.5;
+  Vec3 p = near_mm;
+  for (int i = 0; i < steps; ++i) {
+    const Vec3 gradient = scapula_gradient(p);
+    const double slope = std::max(min_gradient, gradient.norm());
+    p -= std::clamp(scapula_value(p) / slope, -max_step_mm, max_step_mm) / slope * gradient;
+  }
+  return p;
 }
 
 double PhantomShape::humerus_mm(const Vec3& world_mm) const {
   const double head = (world_mm - head_centre_).norm() - head_radius_mm;
+  if (anatomical_) return rounded_min(head, anatomical_shaft_mm(in_scapula(world_mm - head_centre_)), 4.0);
   const Vec3 shaft_top = head_centre_ + 10.0 * lateral_;
   const Vec3 shaft_end = shaft_top + Vec3(0.0, 0.0, -300.0) + 20.0 * lateral_;
   return rounded_min(head, capsule(world_mm, shaft_top, shaft_end, shaft_radius_mm, shaft_radius_mm), 6.0);
+}
+
+/// Tubercles, surgical neck and shaft about the head's centre, in the scapular frame; all lateral of the
+/// joint.
+double PhantomShape::anatomical_shaft_mm(const Vec3& p) {
+  const Vec3 greater(14.0, 4.0, 7.0), lesser(10.0, 0.0, -17.0), neck(10.0, -12.0, 0.0),
+      surgical(14.0, -44.0, 0.0), distal(34.0, -320.0, 0.0);
+  double d =
+      rounded_min(capsule(p, surgical, distal, 12.5, 11.0), capsule(p, neck, surgical, 16.0, 12.5), 6.0);
+  d = rounded_min(d, capsule(p, greater, neck, 12.0, 12.0), 4.0);
+  return rounded_min(d, capsule(p, lesser, neck, 7.5, 8.0), 3.0);
 }
 
 /// In the section across the middle of the face: from the ridge the chord of the neoglenoid runs posterior,
@@ -283,8 +284,8 @@ case_::Landmarks PhantomShape::landmarks() const {
   l.inferior_rim_mm = on_face(-pole, 0.0);
   l.anterior_rim_mm = on_face(level, front);
   l.posterior_rim_mm = on_face(level, -back);
-  l.trigonum_mm = world(spine_root);
-  l.inferior_angle_mm = world(inferior_angle);
+  l.trigonum_mm = world(anatomical_ ? anatomical_->spine_root() : spine_root);
+  l.inferior_angle_mm = world(anatomical_ ? anatomical_->inferior_angle() : inferior_angle);
   l.humeral_head = case_::HumeralHead{head_centre_, head_radius_mm};
   if (params_.type == PhantomType::a1 || params_.type == PhantomType::a2 || params_.type == PhantomType::b2)
     l.walch = to_text(params_.type);

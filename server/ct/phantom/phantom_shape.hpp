@@ -1,4 +1,5 @@
 #pragma once
+#include "ct/phantom/anatomical_scapula.hpp"
 #include "ct/phantom/phantom.hpp"
 
 namespace ream::ct {
@@ -28,6 +29,8 @@ class PhantomShape {
   /// surface.
   double scapula_mm(const Vec3& world_mm) const;
   double humerus_mm(const Vec3& world_mm) const;
+  /// The scapula's surface beside a point that lies within a millimetre of it.
+  Vec3 on_scapula(const Vec3& near_mm) const;
   /// Depth under the articular surface, mm; negative lateral of it.
   double depth_under_face_mm(const Vec3& world_mm) const;
   /// Depth under the neoglenoid's sphere, mm; far from it without one.
@@ -40,8 +43,11 @@ class PhantomShape {
 
  private:
   double scapula_value(const Vec3& world_mm) const;
+  Vec3 scapula_gradient(const Vec3& world_mm) const;
   double body_value(const Vec3& offset) const;
   double processes_value(const Vec3& in_scapula) const;
+  static double anatomical_shaft_mm(const Vec3& from_head_in_scapula);
+  Vec3 in_scapula(const Vec3& offset) const;
   double osteophytes_value(const Vec3& world_mm) const;
 
   void carve_neoglenoid();
@@ -62,6 +68,7 @@ class PhantomShape {
   double face_radius_mm_ = 0;
   Vec3 sphere_centre_, head_centre_;
   std::optional<Neoglenoid> neoglenoid_;
+  std::optional<AnatomicalScapula> anatomical_;  // with a believable body, acromion, coracoid and humerus
 };
 
 }  // namespace ream::ct

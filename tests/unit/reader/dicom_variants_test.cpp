@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include "core/file.hpp"
 #include "ct/read/write_volume.hpp"
 #include "reader/ct_files.hpp"
 #include "support/expect_error.hpp"
@@ -59,6 +60,21 @@ TEST_P(TransferSyntaxes, ATruncatedSliceIsNamed) {
     fs::resize_file(file, static_cast<uintmax_t>(static_cast<double>(fs::file_size(file)) * share));
     test::expect_error(ErrorKind::invalid_input, "slice_0003.dcm", [&] { read_ct_files(folder.path()); });
   }
+}
+
+/// GDCM looks for the next marker, misses the tables, and ends the program by an assertion.
+TEST(DicomVariants, APackedSliceWithRubbishBetweenItsHeadersIsNamed) {
+  const test::TemporaryFolder folder;
+  write_dicom_folder(stack_of_variants(), folder.path(), 1);
+  for (int i = 1; i <= 4; ++i)
+    test::transcode(slice_file(folder.path(), i), Syntax::JPEGLosslessProcess14_1);
+  const fs::path file = slice_file(folder.path(), 3);
+  std::string bytes = read_text_file(file);
+  const size_t tables = bytes.find("\xff\xc4", bytes.find("\xff\xd8\xff"));
+  ASSERT_NE(tables, std::string::npos);
+  bytes[tables] = 0;
+  write_file_atomically(file, bytes);
+  test::expect_error(ErrorKind::invalid_input, "slice_0003.dcm", [&] { read_ct_files(folder.path()); });
 }
 
 INSTANTIATE_TEST_SUITE_P(Dicom, TransferSyntaxes,

@@ -1,0 +1,199 @@
+#include "ct/phantom/anatomical_scapula.hpp"
+
+#include <Eigen/Geometry>
+#include <limits>
+
+#include "ct/phantom/implicit_solids.hpp"
+
+namespace ream::ct {
+namespace {
+
+constexpr double part_rounding_mm = 3.0;
+constexpr int parts_per_span = 4;
+constexpr double far_mm = 8.0;  // beyond, a lower bound of the distance is enough
+
+/// Catmull and Rom's curve through b and c; its ends are doubled.
+template <typename Value>
+Value spline(const Value& a, const Value& b, const Value& c, const Value& d, double t) {
+  return b + 0.5 * t * ((c - a) + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a)));
+}
+
+using Point = std::array<double, 2>;
+
+double squared_distance(const Point& p, const Point& a, const Point& b) {
+  const double abx = b[0] - a[0], aby = b[1] - a[1], x = p[0] - a[0], y = p[1] - a[1];
+  const double t = std::clamp((x * abx + y * aby) / (abx * abx + aby * aby), 0.0, 1.0);
+  const double dx = x - t * abx, dy = y - t * aby;
+  return dx * dx + dy * dy;
+}
+
+// The body's outline in the scapular plane (lateral, superior), drawn inside by `corner_mm`: superior angle,
+// root of the spine, medial border, inferior angle, lateral border up to the neck, superior border.
+constexpr double corner_mm = 5.0;
+constexpr Point outline[] = {{-88, 35},   {-97, 18},  {-100, 1},  {-99.5, -35}, {-96.5, -70}, {-91.5, -96},
+                             {-87, -103}, {-82, -98}, {-72, -83}, {-58, -61},   {-42, -40},   {-20, -17},
+                             {-20, 18},   {-40, 19},  {-62, 22},  {-77, 28}};
+constexpr size_t corners = std::size(outline);
+constexpr size_t first_lateral = 6, last_lateral = 11;  // corners of the lateral border
+constexpr size_t first_medial = 0, last_medial = 5;
+
+// Half thickness of the body: its middle, and what the borders add (51 cadavers: middle third 2.06 mm,
+// lateral border 13.8, medial 4.4; Clin Should Elbow 15, 2012).
+constexpr double thin_mm = 1.1, lateral_mm = 4.6, lateral_reach_mm = 7.0, medial_mm = 0.9,
+                 medial_reach_mm = 6.0;
+constexpr double bow_reach_mm = 15.0, rim_mm = 2.5;
+// The bow begins medial of the neck, which is straight.
+constexpr double bow_at_mm[] = {50.0, 85.0}, bow_share[] = {0.0, 1.0};
+
+/// Distances in the plane: to the outline (negative within), and to the lines of its lateral and medial
+/// border.
+struct InOutline {
+  double edge_mm, lateral_mm, medial_mm;
+};
+
+InOutline in_outline(const Point& p) {
+  double edge = std::numeric_limits<double>::max(), lateral = edge, medial = edge;
+  bool inside = false;
+  for (size_t i = 0; i < corners; ++i) {
+    const Point &a = outline[i], &b = outline[(i + 1) % corners];
+    const double d = squared_distance(p, a, b);
+    edge = std::min(edge, d);
+    if (i >= first_lateral && i < last_lateral) lateral = std::min(lateral, d);
+    if (i >= first_medial && i < last_medial) medial = std::min(medial, d);
+    if ((a[1] > p[1]) != (b[1] > p[1]) && p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
+      inside = !inside;
+  }
+  const double to_edge = std::sqrt(edge);
+  return {(inside ? -to_edge : to_edge) - corner_mm, std::sqrt(lateral), std::sqrt(medial)};
+}
+
+/// Falls from `most` at the border to a half at `reach`.
+double falling(double most, double distance, double reach) {
+  const double share = distance / reach;
+  return most / (1.0 + share * share);
+}
+
+FlatSweep acromion_of(const AnatomicalSizes& s) {
+  const auto at = [&](double x, double y, double z, double share) -> Vec3 {
+    return {x + share * s.acromion_lateral_mm, y + share * s.acromion_superior_mm, z};
+  };
+  return FlatSweep({{at(5, 24.3, 32, 0.1), 5.5},
+                    {at(11, 29, 31, 0.6), 9.5},
+                    {at(19, 34, 22, 1.0), 11.5},
+                    {at(20.5, 36.5, 11, 1.0), 12.0},
+                    {at(21.5, 37.3, 4, 1.0), 10.0},
+                    {at(22, 37.5, 0.5, 1.0), 6.5}},
+                   {0.05, 0.97, 0.23}, 2.9);
+}
+
+/// The crest of the spine, which overhangs its plate above and below.
+FlatSweep crest_of_spine() {
+  return FlatSweep({{{-100, 0.4, 3.0}, 3.5},
+                    {{-85, 2.4, 7}, 6.0},
+                    {{-64, 5.3, 11.5}, 7.0},
+                    {{-45, 8, 14.5}, 5.5},
+                    {{-34, 9.5, 17}, 4.0}},
+                   {-0.2, 0.0, 1.0}, 1.8);
+}
+
+FlatSweep coracoid_of(const AnatomicalSizes& s) {
+  const auto at = [&](double x, double y, double z, double share) -> Vec3 {
+    return {x + share * s.coracoid_lateral_mm, y, z - share * s.coracoid_anterior_mm};
+  };
+  return FlatSweep({{at(-10, 32, -14, 0.0), 6.0},
+                    {at(-5, 33, -21, 0.3), 7.3},
+                    {at(3, 30.5, -27, 0.7), 7.3},
+                    {at(11.5, 25.5, -30.5, 1.0), 5.6}},
+                   {0.33, 0.90, -0.25}, 1.85);
+}
+
+double triangle_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a, bc = c - b, ca = a - c, normal = ab.cross(-ca);
+  const bool above = normal.cross(ab).dot(p - a) >= 0 && normal.cross(bc).dot(p - b) >= 0 &&
+                     normal.cross(ca).dot(p - c) >= 0;
+  if (above) return std::abs(normal.dot(p - a)) / normal.norm();
+  return std::min({capsule(p, a, b, 0, 0), capsule(p, b, c, 0, 0), capsule(p, c, a, 0, 0)});
+}
+
+}  // namespace
+
+FlatSweep::FlatSweep(const std::vector<Knot>& knots, const Vec3& flat, double flatness)
+    : flat_(flat.normalized()), flatness_(flatness) {
+  Vec3 low = knots.front().at, high = low;
+  double broadest = 0.0;
+  for (const Knot& knot : knots) {
+    low = low.cwiseMin(knot.at);
+    high = high.cwiseMax(knot.at);
+    broadest = std::max(broadest, knot.half_breadth_mm);
+  }
+  centre_ = 0.5 * (low + high);
+  radius_mm_ = 0.5 * (high - low).norm() + broadest + 1.0;
+  const auto knot = [&](size_t i) -> const Knot& { return knots[std::min(i, knots.size() - 1)]; };
+  for (size_t i = 0; i + 1 < knots.size(); ++i)
+    for (int part = 0; part < parts_per_span; ++part) {
+      const double t = static_cast<double>(part) / parts_per_span;
+      const Knot &a = knot(i == 0 ? 0 : i - 1), &b = knot(i), &c = knot(i + 1), &d = knot(i + 2);
+      points_.push_back(stretched(spline<Vec3>(a.at, b.at, c.at, d.at, t)));
+      half_breadths_mm_.push_back(
+          spline<double>(a.half_breadth_mm, b.half_breadth_mm, c.half_breadth_mm, d.half_breadth_mm, t));
+    }
+  points_.push_back(stretched(knots.back().at));
+  half_breadths_mm_.push_back(knots.back().half_breadth_mm);
+}
+
+double FlatSweep::value(const Vec3& p) const {
+  const double beyond = (p - centre_).norm() - radius_mm_;
+  if (beyond > far_mm) return beyond;
+  const Vec3 at = stretched(p);
+  double nearest = std::numeric_limits<double>::max();
+  for (size_t i = 0; i + 1 < points_.size(); ++i)
+    nearest = std::min(
+        nearest, capsule(at, points_[i], points_[i + 1], half_breadths_mm_[i], half_breadths_mm_[i + 1]));
+  return nearest / flatness_;
+}
+
+ProcessBases process_bases(const Vec3& p) {
+  const Vec3 notch(-14.0, 12.0, 20.0), corner(8.0, 26.0, 34.0);
+  const Vec3 neck_top(-28.0, 10.0, 2.0), spine_start(-103.0, 0.0, 1.0);
+  double spine = triangle_distance(p, spine_start, neck_top, notch) - 1.6;
+  spine = rounded_min(spine, capsule(p, spine_start, notch, 2.5, 4.5), part_rounding_mm);
+  const Vec3 coracoid_base(-16.0, 15.0, -2.0), coracoid_bend(-10.0, 32.0, -14.0);
+  return {spine, capsule(p, notch, corner, 4.5, 5.5), capsule(p, coracoid_base, coracoid_bend, 6.0, 6.0)};
+}
+
+AnatomicalScapula::AnatomicalScapula(const AnatomicalSizes& sizes)
+    : sizes_(sizes), crest_(crest_of_spine()), acromion_(acromion_of(sizes)), coracoid_(coracoid_of(sizes)) {}
+
+double AnatomicalScapula::body_value(const Vec3& p) const {
+  const Vec3 mean = p / sizes_.scale;
+  const InOutline in = in_outline({mean.x(), mean.y()});
+  const double within = std::max(0.0, -in.edge_mm);
+  const double middle =
+      sizes_.body_bow_mm * eased(bow_at_mm, bow_share, -mean.x()) * within / (within + bow_reach_mm);
+  const double half_thickness = thin_mm + falling(lateral_mm, in.lateral_mm, lateral_reach_mm) +
+                                falling(medial_mm, in.medial_mm, medial_reach_mm);
+  return sizes_.scale * rounded_max(std::abs(mean.z() - middle) - half_thickness, in.edge_mm, rim_mm);
+}
+
+double AnatomicalScapula::body_share(double depth_mm) {
+  constexpr double at[] = {44.0, 62.0}, share[] = {0.0, 1.0};
+  return eased(at, share, depth_mm);
+}
+
+double AnatomicalScapula::processes_value(const Vec3& p) const {
+  const Vec3 mean = p / sizes_.scale;
+  const ProcessBases bases = process_bases(mean);
+  double d = rounded_min(bases.spine, bases.acromion, part_rounding_mm);
+  d = rounded_min(d, crest_.value(mean), part_rounding_mm);
+  d = rounded_min(d, acromion_.value(mean), part_rounding_mm);
+  // The knuckle is round, and the simple phantom's.
+  const Vec3 bend(-10.0, 32.0, -14.0), knuckle_end(-5.0, 30.75, -19.0);
+  const double knuckle = capsule(mean, bend, knuckle_end, 6.0, 5.625);
+  const double coracoid = std::min(coracoid_.value(mean), knuckle);
+  return sizes_.scale * std::min(d, rounded_min(bases.coracoid, coracoid, part_rounding_mm));
+}
+
+Vec3 AnatomicalScapula::spine_root() const { return sizes_.scale * Vec3(-105.0, 0.0, 0.0); }
+Vec3 AnatomicalScapula::inferior_angle() const { return sizes_.scale * Vec3(-88.0, -108.0, 0.0); }
+
+}  // namespace ream::ct

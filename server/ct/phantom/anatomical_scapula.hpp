@@ -1,0 +1,72 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "geometry/vec.hpp"
+
+namespace ream::ct {
+
+/// How one scapula differs from the mean one; all zero (and scale 1) is the mean. The mean and the spread
+/// that shoulders are drawn with (individual.hpp) follow 97 cadavers (Siriraj Med J 56, 2004), 67 CTs of
+/// whole scapulae (J Mil Pharmaco-Med 2021, glenopolar angle) and 3D critical shoulder angles (Mah 2021).
+struct AnatomicalSizes {
+  double scale = 1.0;                 ///< of all but the glenoid's face and vault
+  double acromion_lateral_mm = 0.0;   ///< how much farther its lateral edge reaches
+  double acromion_superior_mm = 0.0;  ///< how much higher it lies
+  double coracoid_lateral_mm = 0.0, coracoid_anterior_mm = 0.0;  ///< of its tip
+  double body_bow_mm = 6.0;  ///< how far the body's middle lies behind the plane of its borders
+};
+
+/// A bent plate with an elliptic section: capsules along a smooth curve, flattened along one direction.
+class FlatSweep {
+ public:
+  struct Knot {
+    Vec3 at;                 ///< mm, on the plate's middle line
+    double half_breadth_mm;  ///< half of its section across
+  };
+  /// `flat` is the direction (any length) in which the section is `flatness` times thinner than across.
+  FlatSweep(const std::vector<Knot>& knots, const Vec3& flat, double flatness);
+
+  /// Negative within; about mm near the surface, too small by up to `flatness` along its edges.
+  double value(const Vec3& p) const;
+
+ private:
+  Vec3 stretched(const Vec3& p) const { return p + (flatness_ - 1.0) * p.dot(flat_) * flat_; }
+
+  Vec3 flat_;
+  double flatness_;
+  std::vector<Vec3> points_;  // stretched
+  std::vector<double> half_breadths_mm_;
+  Vec3 centre_ = Vec3::Zero();  // of a sphere that holds all
+  double radius_mm_ = 0.0;
+};
+
+/// Body, spine, acromion and coracoid of a believable scapula in PhantomShape's scapular frame, mm. Near the
+/// joint (within about 44 mm medial of the face, 24 mm above and 26 mm behind it) spine and coracoid are
+/// those of the simple phantom to the bit, so that both have the same glenoid, vault and neck.
+class AnatomicalScapula {
+ public:
+  explicit AnatomicalScapula(const AnatomicalSizes& sizes);
+
+  /// The body, medial of the neck: a bowed plate, thin in its middle, thick along the lateral border.
+  double body_value(const Vec3& p) const;
+  /// How much of the body at a depth under the face, mm, is that plate: 0 in the neck, 1 beyond it.
+  static double body_share(double depth_mm);
+  /// Spine, acromion and coracoid.
+  double processes_value(const Vec3& p) const;
+
+  Vec3 spine_root() const;
+  Vec3 inferior_angle() const;
+
+ private:
+  AnatomicalSizes sizes_;
+  FlatSweep crest_, acromion_, coracoid_;
+};
+
+/// Spine and the bases of acromion and coracoid, which both phantoms share: what lies beyond is theirs.
+struct ProcessBases {
+  double spine, acromion, coracoid;
+};
+ProcessBases process_bases(const Vec3& in_scapula);
+
+}  // namespace ream::ct
