@@ -3,9 +3,11 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "geometry/split_mesh.hpp"
 #include "render/camera.hpp"
 #include "report/deviation_scale.hpp"
 #include "shell/tool.hpp"
+#include "surface/removed_share.hpp"
 
 namespace ream::report {
 namespace {
@@ -85,13 +87,8 @@ Picture before(const ReamedBone& bone, const Directions& d) {
   return picture;
 }
 
-/// Triangles whose corners are all cut, and the rest, with all vertices each.
 Picture after(const ReamedBone& bone, const Directions& d) {
-  TriangleMesh fresh, rest;
-  fresh.vertices_mm = rest.vertices_mm = bone.after.vertices_mm;
-  fresh.normals = rest.normals = bone.after.normals;
-  for (const auto& t : bone.after.triangles)
-    (bone.cut[t[0]] && bone.cut[t[1]] && bone.cut[t[2]] ? fresh : rest).triangles.push_back(t);
+  const auto [rest, fresh] = split_at(bone.after, bone.removed, surface::cut_share);
   std::vector<render::Layer> layers = {layer_of(rest, bone), layer_of(fresh, bone)};
   layers[1].colour = render::cut_bone_colour;
   Picture picture = oblique(bone, layers, d);

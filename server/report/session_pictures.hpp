@@ -15,7 +15,7 @@ struct WorldAxis {
 /// What a session did to a bone, for pictures. Surfaces in the grid frame, mm.
 struct ReamedBone {
   TriangleMesh before, after;  ///< both with the pilot hole
-  std::vector<uint8_t> cut;    ///< of `after`, see score::cut_vertices
+  std::vector<float> removed;  ///< of `after`, see surface::removed_shares
   /// Of `after`, see score/deviation.hpp; empty when there is nothing to compare with.
   std::vector<int8_t> from_plan, from_implant;
   std::vector<int8_t> wall;  ///< see score::wall_codes; empty when nothing of the face was reamed

@@ -3,14 +3,14 @@
 #include <span>
 #include <vector>
 
-#include "surface/block_mesh.hpp"
+#include "surface/removed_share.hpp"
 #include "voxel/bricks.hpp"
 
 namespace ream::stream {
 
-/// Tells how much bone is gone at places of a surface, so that viewers can paint what was cut: how far they
-/// lie under the surface that was there before the first tick, where bone is gone. Keeps memory for bricks
-/// that have changed only. Used by one thread.
+/// Tells how much bone is gone at places of a surface since before the first tick (surface::removed_level),
+/// so that viewers can paint what was cut. Keeps memory for bricks that have changed only. Used by one
+/// thread.
 class RemovedBone {
  public:
   static constexpr int max_level = 15;  ///< half a voxel under the first surface or more
@@ -27,11 +27,7 @@ class RemovedBone {
   static std::vector<uint8_t> packed(std::span<const uint8_t> levels);
 
  private:
-  struct Sample {
-    int before = 0, now = 0;  ///< coverage
-  };
-  unsigned level_at(const surface::BlockVertex& vertex, const Vec3i& block_origin) const;
-  Sample sample_at(const Vec3i& voxel) const;
+  surface::TwoCoverages sample_at(const Vec3i& voxel) const;
 
   const voxel::Replica& now_;
   surface::BlockLayout layout_;

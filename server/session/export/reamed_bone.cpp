@@ -13,7 +13,7 @@
 #include "session/simulation/recorded_setup.hpp"
 #include "session/simulation/simulation.hpp"
 #include "sim/model.hpp"
-#include "surface/block_mesh.hpp"
+#include "surface/removed_share.hpp"
 
 namespace ream::session {
 namespace {
@@ -41,10 +41,11 @@ Coverages coverages_of(const record::Recording& recording, case_::Case& native_c
   return all;
 }
 
-Aabb box_of_cut(const report::ReamedBone& bone) {
+Aabb box_of_cut(const TriangleMesh& surface, const score::BoneStates& states) {
+  const std::vector<uint8_t> cut = score::cut_vertices(surface.vertices_mm, states);
   Aabb box;
-  for (size_t i = 0; i < bone.cut.size(); ++i)
-    if (bone.cut[i]) box.include(bone.after.vertices_mm[i].cast<double>());
+  for (size_t i = 0; i < cut.size(); ++i)
+    if (cut[i]) box.include(surface.vertices_mm[i].cast<double>());
   return box.empty() ? box : box.grown(score::deviation_range_mm);
 }
 
@@ -60,7 +61,7 @@ void compare(const score::NativeGlenoid& native_glenoid, const score::Placements
   if (placements.achieved)
     bone.achieved = report::WorldAxis{placements.achieved->apex_mm, placements.achieved->axis};
   if (placements.planned) {
-    const Aabb near_cut = box_of_cut(bone);
+    const Aabb near_cut = box_of_cut(bone.after, states);
     const TriangleTree native(surface::whole_surface(states.grid, states.native), &near_cut);
     bone.from_plan = score::deviation_from_plan(
         bone.after.vertices_mm, states,
@@ -100,7 +101,7 @@ ComparedBone reamed_bone(const record::Recording& recording, const score::Metric
   bone.glenoid = bone_case.glenoid;
   const score::BoneStates states{grid, coverages.native.data(), coverages.start.data(),
                                  coverages.left.data()};
-  bone.cut = score::cut_vertices(bone.after.vertices_mm, states);
+  bone.removed = surface::removed_shares(bone.after.vertices_mm, grid, states.start, states.left);
   const score::Placements placements = score::placements_of(
       *native, {grid, coverages.left.data()}, ticks.cut_line(), sim::world_from_plan(*bone_case.plan));
   compare(*native, placements, states, compared);

@@ -4,7 +4,8 @@
 
 #include "ct/build/surroundings.hpp"
 #include "geometry/mesh_io.hpp"
-#include "surface/block_mesh.hpp"
+#include "geometry/split_mesh.hpp"
+#include "surface/removed_share.hpp"
 
 namespace ream::session {
 namespace {
@@ -13,46 +14,18 @@ constexpr int picture_width = 1280, picture_height = 960;
 constexpr double camera_distance_mm = 105.0;
 constexpr int surface_threads = 2;
 
-/// Triangles of the surface that removal has made, and the rest.
-struct Parts {
-  TriangleMesh fresh, native;
-};
-
-/// True when the voxel that holds the point, or one beside it, has lost coverage.
-bool is_fresh(const voxel::BoneModel& bone, const std::vector<uint8_t>& before, const Vec3& point_mm) {
-  const Vec3i at = bone.grid.voxel_at(point_mm);
-  for (int axis = 0; axis < 3; ++axis)
-    for (int step = -1; step <= 1; ++step) {
-      Vec3i o = at;
-      o[axis] += step;
-      if (!bone.grid.contains(o)) continue;
-      const size_t i = bone.grid.index(o);
-      if (bone.coverage[i] < before[i]) return true;
-    }
-  return false;
-}
-
-Parts split(const TriangleMesh& surface, const voxel::BoneModel& bone, const std::vector<uint8_t>& before) {
-  std::vector<uint8_t> fresh(surface.vertices_mm.size());
-  for (size_t i = 0; i < fresh.size(); ++i)
-    fresh[i] = is_fresh(bone, before, surface.vertices_mm[i].cast<double>());
-  Parts parts;
-  parts.fresh.vertices_mm = parts.native.vertices_mm = surface.vertices_mm;
-  parts.fresh.normals = parts.native.normals = surface.normals;
-  for (const auto& t : surface.triangles)
-    (fresh[t[0]] && fresh[t[1]] && fresh[t[2]] ? parts.fresh : parts.native).triangles.push_back(t);
-  return parts;
-}
-
 void draw_picture(const case_::Case& bone_case, const TriangleMesh& surface,
                   const std::vector<uint8_t>& before, const TriangleMesh& around,
                   const std::filesystem::path& png) {
-  const Parts parts = split(surface, bone_case.bone, before);
+  const voxel::BoneModel& bone = bone_case.bone;
+  const SplitMesh parts = split_at(
+      surface, surface::removed_shares(surface.vertices_mm, bone.grid, before.data(), bone.coverage.data()),
+      surface::cut_share);
   std::vector<render::Layer> layers(2);
-  layers[0].mesh = &parts.native;
-  layers[1].mesh = &parts.fresh;
+  layers[0].mesh = &parts.below;
+  layers[1].mesh = &parts.above;
   layers[1].colour = render::cut_bone_colour;
-  for (auto& layer : layers) layer.world_from_mesh = bone_case.bone.grid.world_from_grid;
+  for (auto& layer : layers) layer.world_from_mesh = bone.grid.world_from_grid;
   const TriangleMesh beyond = ct::beyond_reach(around, plan_of(bone_case));
   if (!beyond.triangles.empty()) layers.emplace_back().mesh = &beyond;
   const Vec3 superior = bone_case.glenoid ? bone_case.glenoid->superior : Vec3::UnitZ();

@@ -25,7 +25,7 @@ ReamedBone plate(case_::Side side) {
       bone.after.normals.emplace_back(static_cast<float>(-right), 0.0f, 0.0f);
       const bool anterior = i < steps / 2;
       bone.from_plan.push_back(anterior ? score::deviation_code(1.5) : score::deviation_code(-1.5));
-      bone.cut.push_back(1);
+      bone.removed.push_back(1.0f);
     }
   for (uint32_t i = 0; i < steps; ++i)
     for (uint32_t k = 0; k < steps; ++k) {
@@ -125,7 +125,7 @@ TEST(SessionPictures, WithoutCutOrPlanThereIsStillSomethingToSee) {
   ReamedBone bone = plate(case_::Side::right);
   bone.from_plan.clear();
   bone.achieved.reset();
-  std::fill(bone.cut.begin(), bone.cut.end(), 0);
+  std::fill(bone.removed.begin(), bone.removed.end(), 0.0f);
   const auto pictures = session_pictures(bone);
   EXPECT_EQ(pictures.size(), 4u);
   EXPECT_EQ(titled(pictures, "After").caption, "Nothing was cut.");

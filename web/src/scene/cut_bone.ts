@@ -10,7 +10,7 @@ export const cutBoneColours = { cancellous: '#8a3d40', compact: '#a2544f' };
 export const marksAttribute = 'boneMarks';
 
 /** Where so much of half a voxel is gone the bone is cut. */
-const cutFrom = 0.3;
+export const cutFrom = 0.3;
 const wetRoughness = 0.34;
 
 export const cutInVertex = `

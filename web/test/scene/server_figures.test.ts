@@ -4,7 +4,7 @@ import { readFileSync } from 'node:fs';
 import { Color, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
 
-import { cutBoneColours } from '../../src/scene/cut_bone';
+import { cutBoneColours, cutFrom } from '../../src/scene/cut_bone';
 import { beyondReach } from '../../src/scene/surroundings_view';
 import { lipAngleDeg, lipCount } from '../../src/scene/tool_shape';
 import type { Surface } from '../../src/wire/ply';
@@ -28,6 +28,7 @@ describe('page and server', () => {
   it('paint cut bone alike', () => {
     const colour = /cut_bone_colour\{([\d.]+)f, ([\d.]+)f, ([\d.]+)f\}/;
     const linear = new Color(cutBoneColours.cancellous).toArray();
+    expect(figures('surface/removed_share.hpp', /cut_share = ([\d.]+)f/)).toEqual([cutFrom]);
     figures('render/snapshot.hpp', colour).forEach((value, i) => expect(value).toBeCloseTo(linear[i] ?? 0, 3));
   });
 
