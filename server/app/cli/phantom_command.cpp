@@ -103,9 +103,11 @@ void add_phantom_command(CLI::App& app, GlobalOptions& global) {
       ->check(CLI::IsMember({"left", "right"}))
       ->capture_default_str();
   command
-      ->add_option("--type", options->type,
-                   "A1, A2 (central wear), B2 (biconcave), osteophytes (at the rim) or osteoporotic")
-      ->check(CLI::IsMember({"A1", "A2", "B2", "osteophytes", "osteoporotic"}))
+      ->add_option(
+          "--type", options->type,
+          "Walch's A1, A2 (worn in the centre), B1 (head slid back), B2 (biconcave), B3 (worn behind), "
+          "C1 (dysplastic) or D (anteverted); osteophytes (at the rim), osteoporotic")
+      ->check(CLI::IsMember(ct::phantom_type_texts()))
       ->capture_default_str();
   command
       ->add_option(

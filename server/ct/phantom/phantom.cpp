@@ -16,7 +16,7 @@ namespace {
 
 constexpr double soft_tissue_hu = 50.0;
 constexpr double cortical_g_cc = 1.5;
-constexpr double sclerotic_g_cc = 1.1, sclerotic_mm = 4.0;  // under a neoglenoid's plate
+constexpr double sclerotic_g_cc = 1.1, sclerotic_mm = 4.0;  // under the plate of a face worn behind
 
 /// What osteoporosis leaves: of the spongy bone, of the compact bone's density and of its thickness.
 constexpr double porotic_spongy = 0.65, porotic_compact = 0.85, porotic_thickness = 0.7;
@@ -28,7 +28,11 @@ struct TypeName {
 };
 constexpr TypeName type_names[] = {{PhantomType::a1, "A1"},
                                    {PhantomType::a2, "A2"},
+                                   {PhantomType::b1, "B1"},
                                    {PhantomType::b2, "B2"},
+                                   {PhantomType::b3, "B3"},
+                                   {PhantomType::c1, "C1"},
+                                   {PhantomType::d, "D"},
                                    {PhantomType::osteophytes, "osteophytes"},
                                    {PhantomType::osteoporotic, "osteoporotic"}};
 
@@ -87,9 +91,10 @@ double compact_g_cc(const PhantomParams& p) {
 double spongy_g_cc(const PhantomShape& shape, const PhantomParams& p, const Vec3& world, double depth_mm) {
   const double healthy = cancellous_g_cc(shape.posterior_mm(world), depth_mm);
   if (is_porotic(p)) return porotic_spongy * healthy;
-  const bool sclerotic = p.type == PhantomType::b2 &&
-                         shape.depth_under_neoglenoid_mm(world) < p.plate_mm + sclerotic_mm &&
-                         shape.depth_under_neoglenoid_mm(world) == depth_mm;
+  const double worn = p.type == PhantomType::b2 ? shape.depth_under_neoglenoid_mm(world) : depth_mm;
+  const bool behind =
+      p.type == PhantomType::b2 || (p.type == PhantomType::b3 && shape.posterior_mm(world) > 0.0);
+  const bool sclerotic = behind && worn < p.plate_mm + sclerotic_mm && worn == depth_mm;
   return sclerotic ? sclerotic_g_cc : healthy;
 }
 
@@ -135,8 +140,15 @@ std::string to_text(PhantomType type) {
 PhantomType phantom_type_from_text(const std::string& text) {
   for (const TypeName& named : type_names)
     if (named.text == text) return named.type;
-  throw Error(ErrorKind::invalid_input,
-              "phantom type '" + text + "' must be A1, A2, B2, osteophytes or osteoporotic");
+  std::string words;
+  for (const std::string& each : phantom_type_texts()) words += (words.empty() ? "" : ", ") + each;
+  throw Error(ErrorKind::invalid_input, "phantom type '" + text + "' must be one of " + words);
+}
+
+std::vector<std::string> phantom_type_texts() {
+  std::vector<std::string> texts;
+  for (const TypeName& named : type_names) texts.emplace_back(named.text);
+  return texts;
 }
 
 std::string phantom_source(const PhantomParams& params) {

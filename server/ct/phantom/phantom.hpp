@@ -3,6 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "case/case.hpp"
 #include "case/landmarks.hpp"
@@ -15,17 +16,24 @@ namespace ream::ct {
 /// Kinds of glenoid (Walch where they are in his classes; science 2.1, 2.4):
 /// - a1: little worn, concentric;
 /// - a2: worn in the centre: the face lies 4 mm medial and is nearly as curved as the head;
+/// - b1: as a1, but the head has slid back and the joint space is narrow there;
 /// - b2: biconcave. The anterior half is what is left of the face that was asked for, the posterior half a
 ///   neoglenoid turned 26 degrees further into retroversion, with a sclerotic zone of 4 mm under it and the
 ///   head subluxated into it;
+/// - b3: one concave face, worn 9 mm medial and turned 18 degrees further into retroversion than was asked
+///   for, sclerotic behind; the vault is what is left of the native one;
+/// - c1: never grown in full: 25 degrees more retroverted than was asked for, without wear;
+/// - d: 12 degrees less retroverted than was asked for, the head slid forward;
 /// - osteophytes: as a1, with osteophytes outside the lower half of the native rim;
 /// - osteoporotic: as a1, with about two thirds of the densities and thinner plate and shell; a threshold of
 ///   100 HU keeps its spongy bone.
-enum class PhantomType { a1, a2, b2, osteophytes, osteoporotic };
+enum class PhantomType { a1, a2, b1, b2, b3, c1, d, osteophytes, osteoporotic };
 
-/// "A1", "A2", "B2", "osteophytes", "osteoporotic". Error invalid_input for another word.
+/// "A1" to "D" as Walch writes them, "osteophytes", "osteoporotic". Error invalid_input for another word.
 std::string to_text(PhantomType type);
 PhantomType phantom_type_from_text(const std::string& text);
+/// All words, in order.
+std::vector<std::string> phantom_type_texts();
 
 /// A parametric shoulder. Lengths mm, angles rad (retroversion negative, superior inclination positive;
 /// science 2.1). Typical values from science 2.4.
@@ -58,8 +66,8 @@ struct GroundTruth {
   PhantomType type = PhantomType::a1;
   /// Of the native face (3D, science 2.1); of a biconcave one along its intermediate line.
   double version_rad = 0, inclination_rad = 0;
-  /// Of a biconcave glenoid: as it was asked for, before the wear; along the paleoglenoid's chord (anterior
-  /// rim to ridge); along the neoglenoid's.
+  /// As it was asked for, before the wear of a biconcave or a B3 glenoid. Of a biconcave one: along the
+  /// paleoglenoid's chord (anterior rim to ridge); along the neoglenoid's.
   std::optional<double> premorbid_version_rad, paleo_version_rad, neo_version_rad;
   case_::GlenoidFrame glenoid;  ///< centre on the articular surface; lateral is the face normal
   Vec3 articular_sphere_centre_mm = Vec3::Zero();

@@ -19,9 +19,28 @@ constexpr double min_gradient = 0.3;
 constexpr double rim_rounding_mm = 0.8, joint_rounding_mm = 3.0;
 constexpr double head_radius_mm = PhantomShape::head_radius_mm, shaft_radius_mm = 12.0;
 
-// Central wear: how far the face lies medial, and by how much its radius exceeds that of head and joint
-// space.
-constexpr double central_wear_mm = 4.0, worn_radius_excess_mm = 1.0;
+// Wear: how far the face lies medial (B3: 14 +- 4 mm at its worst place, science 2.1), and by how much its
+// radius exceeds that of head and joint space.
+constexpr double central_wear_mm = 4.0, posterior_wear_mm = 9.0, worn_radius_excess_mm = 1.0;
+double wear_mm_of(PhantomType type) {
+  return type == PhantomType::a2 ? central_wear_mm : type == PhantomType::b3 ? posterior_wear_mm : 0.0;
+}
+
+/// By how much a face is turned against what was asked for: as it grew, and by wear (B3 24 +- 7 degrees of
+/// retroversion, C1 more than 25, D anteverted; science 2.1).
+struct Turned {
+  double native_rad = 0, worn_rad = 0;
+};
+Turned turned_of(PhantomType type) {
+  if (type == PhantomType::b3) return {0, radians_from_degrees(-18.0)};
+  if (type == PhantomType::c1) return {radians_from_degrees(-25.0), 0};
+  if (type == PhantomType::d) return {radians_from_degrees(12.0), 0};
+  return {};
+}
+
+// A head that has slid: where it comes closest, seen from the middle of the face's sphere, and the joint
+// space that is left there.
+constexpr double slid_sine = 0.6, narrowed_share = 0.4;
 
 /// sin and cos of the platform's library can differ in the last bit; rounded far below any voxel they do not.
 double settled(double v) { return std::floor(v * 1099511627776.0 + 0.5) / 1099511627776.0; }
@@ -71,22 +90,46 @@ PhantomShape::PhantomShape(const PhantomParams& params) : params_(params), centr
   lateral_ = Vec3(-c, -s, 0.0);
   superior_ = Vec3::UnitZ();
   posterior_ = Vec3(-s, c, 0.0);
-  // Science 2.1: version = -atan2(n.z, n.x), inclination = atan2(n.y, n.x).
-  face_normal_ =
-      (lateral_ + tangent(params.inclination_rad) * superior_ - tangent(params.version_rad) * posterior_)
-          .normalized();
-  face_superior_ = (superior_ - superior_.dot(face_normal_) * face_normal_).normalized();
-  const Vec3 across = face_superior_.cross(face_normal_);
-  face_anterior_ = across.dot(posterior_) < 0.0 ? across : Vec3(-across);
-  medial_in_face_ =
-      -Vec3(lateral_.dot(face_superior_), lateral_.dot(face_anterior_), lateral_.dot(face_normal_));
-  const bool worn = params.type == PhantomType::a2;
-  worn_centre_ = worn ? Vec3(centre_ - central_wear_mm * lateral_) : centre_;
-  face_radius_mm_ =
-      worn ? head_radius_mm + params.joint_space_mm + worn_radius_excess_mm : params.glenoid_radius_mm;
+  const double native_rad = params.version_rad + turned_of(params.type).native_rad;
+  version_rad_ = native_rad + turned_of(params.type).worn_rad;
+  vault_ = frame_of(native_rad);
+  medial_in_vault_ =
+      -Vec3(lateral_.dot(vault_.superior), lateral_.dot(vault_.anterior), lateral_.dot(vault_.normal));
+  const FaceFrame face = version_rad_ == native_rad ? vault_ : frame_of(version_rad_);
+  face_normal_ = face.normal;
+  face_superior_ = face.superior;
+  face_anterior_ = face.anterior;
+  const double wear_mm = wear_mm_of(params.type);
+  worn_centre_ = wear_mm > 0.0 ? Vec3(centre_ - wear_mm * lateral_) : centre_;
+  face_radius_mm_ = wear_mm > 0.0 ? head_radius_mm + params.joint_space_mm + worn_radius_excess_mm
+                                  : params.glenoid_radius_mm;
   sphere_centre_ = worn_centre_ + face_radius_mm_ * face_normal_;
-  head_centre_ = worn_centre_ + (params.joint_space_mm + head_radius_mm) * face_normal_;
+  place_head();
   if (params.type == PhantomType::b2) carve_neoglenoid();
+}
+
+PhantomShape::FaceFrame PhantomShape::frame_of(double version_rad) const {
+  FaceFrame frame;
+  // Science 2.1: version = -atan2(n.z, n.x), inclination = atan2(n.y, n.x).
+  frame.normal = (lateral_ + tangent(params_.inclination_rad) * superior_ - tangent(version_rad) * posterior_)
+                     .normalized();
+  frame.superior = (superior_ - superior_.dot(frame.normal) * frame.normal).normalized();
+  const Vec3 across = frame.superior.cross(frame.normal);
+  frame.anterior = across.dot(posterior_) < 0.0 ? across : Vec3(-across);
+  return frame;
+}
+
+/// Opposite the middle of the face, or slid along it: there the joint space is narrower.
+void PhantomShape::place_head() {
+  head_centre_ = worn_centre_ + (params_.joint_space_mm + head_radius_mm) * face_normal_;
+  const double slid_back = params_.type == PhantomType::b1  ? slid_sine
+                           : params_.type == PhantomType::d ? -slid_sine
+                                                            : 0.0;
+  if (slid_back == 0.0) return;
+  const double narrowest_mm = narrowed_share * params_.joint_space_mm;
+  const double from_centre_mm = std::max(0.0, face_radius_mm_ - head_radius_mm - narrowest_mm);
+  const double straight = std::sqrt(1.0 - slid_back * slid_back);
+  head_centre_ = sphere_centre_ - from_centre_mm * (straight * face_normal_ + slid_back * face_anterior_);
 }
 
 double PhantomShape::depth_under_face_mm(const Vec3& world_mm) const {
@@ -105,12 +148,12 @@ Vec3 PhantomShape::in_scapula(const Vec3& offset) const {
 /// Vault, neck and body: egg-shaped sections whose half axes change with the depth along -x. Scaled to about
 /// mm.
 double PhantomShape::body_value(const Vec3& offset) const {
-  double s = offset.dot(face_superior_), t = offset.dot(face_anterior_), depth = 0.0;
-  const double height_above = offset.dot(face_normal_);
+  double s = offset.dot(vault_.superior), t = offset.dot(vault_.anterior), depth = 0.0;
+  const double height_above = offset.dot(vault_.normal);
   if (height_above < 0.0) {
-    depth = height_above / medial_in_face_.z();
-    s -= depth * medial_in_face_.x();
-    t -= depth * medial_in_face_.y();
+    depth = height_above / medial_in_vault_.z();
+    s -= depth * medial_in_vault_.x();
+    t -= depth * medial_in_vault_.y();
   }
   // Share of the face's half width left at a depth, then half thickness of the body; and growth of the
   // heights.
@@ -148,7 +191,7 @@ double PhantomShape::processes_value(const Vec3& p) const {
 
 double PhantomShape::scapula_value(const Vec3& world_mm) const {
   const Vec3 offset = world_mm - centre_;
-  const double above = offset.dot(face_normal_);
+  const double above = offset.dot(vault_.normal);
   double d = rounded_max(body_value(offset), -depth_under_face_mm(world_mm), rim_rounding_mm);
   d = std::max(d, above - 0.5 * params_.glenoid_radius_mm);
   if (params_.type == PhantomType::osteophytes)
@@ -287,7 +330,7 @@ case_::Landmarks PhantomShape::landmarks() const {
   l.trigonum_mm = world(anatomical_ ? anatomical_->spine_root() : spine_root);
   l.inferior_angle_mm = world(anatomical_ ? anatomical_->inferior_angle() : inferior_angle);
   l.humeral_head = case_::HumeralHead{head_centre_, head_radius_mm};
-  if (params_.type == PhantomType::a1 || params_.type == PhantomType::a2 || params_.type == PhantomType::b2)
+  if (params_.type != PhantomType::osteophytes && params_.type != PhantomType::osteoporotic)
     l.walch = to_text(params_.type);
   if (neoglenoid_) {
     const double ridge = reach(back, [&](double r) {
@@ -302,7 +345,7 @@ case_::Landmarks PhantomShape::landmarks() const {
 GroundTruth PhantomShape::truth() const {
   GroundTruth truth;
   truth.type = params_.type;
-  truth.version_rad = params_.version_rad;
+  truth.version_rad = version_rad_;
   truth.inclination_rad = params_.inclination_rad;
   truth.glenoid = {worn_centre_, face_normal_, face_superior_, face_anterior_};
   truth.articular_sphere_centre_mm = sphere_centre_;
@@ -315,6 +358,7 @@ GroundTruth PhantomShape::truth() const {
   truth.inferior_angle_mm = *truth.landmarks.inferior_angle_mm;
   truth.humeral_head_centre_mm = head_centre_;
   truth.humeral_head_radius_mm = head_radius_mm;
+  if (turned_of(params_.type).worn_rad != 0.0) truth.premorbid_version_rad = params_.version_rad;
   if (neoglenoid_) add_biconcavity(truth);
   return truth;
 }

@@ -14,9 +14,9 @@ struct Neoglenoid {
 ///
 /// Scapular frame, origin at the glenoid centre: x lateral (from the spine root), y superior in the scapular
 /// plane, z posterior. Face frame: origin the same, n lateral normal of the face, then superior and anterior
-/// in the face. The vault is a pear-shaped prism seen along n, which narrows medially along -x to a neck and
-/// spreads into the thin body; the articular surface is a sphere about centre + radius * n. Wear moves the
-/// centre medially along -x, so that the scapular axis stays what it is.
+/// in the face. The vault is a pear-shaped prism seen along the native face's n, which narrows medially along
+/// -x to a neck and spreads into the thin body; the articular surface is a sphere about centre + radius * n.
+/// Wear moves the centre medially along -x, so that the scapular axis stays what it is, and may turn n.
 class PhantomShape {
  public:
   /// The widest level lies below the middle by this share of the height (0.64 L from the superior pole).
@@ -50,6 +50,12 @@ class PhantomShape {
   Vec3 in_scapula(const Vec3& offset) const;
   double osteophytes_value(const Vec3& world_mm) const;
 
+  /// Of a face of that version and the inclination that was asked for.
+  struct FaceFrame {
+    Vec3 normal, superior, anterior;
+  };
+  FaceFrame frame_of(double version_rad) const;
+  void place_head();
   void carve_neoglenoid();
   /// World point of the articular surface so far superior and anterior, along the face, of its worn centre.
   Vec3 on_face(double superior_mm, double anterior_mm) const;
@@ -62,8 +68,10 @@ class PhantomShape {
 
   PhantomParams params_;
   Vec3 centre_, lateral_, superior_, posterior_;      // scapular frame
+  double version_rad_ = 0;                            // of the face as it is
+  FaceFrame vault_;                                   // of the native face, which the vault belongs to
   Vec3 face_normal_, face_superior_, face_anterior_;  // face frame
-  Vec3 medial_in_face_;                               // -lateral_ in (superior, anterior, normal) of the face
+  Vec3 medial_in_vault_;                              // -lateral_ in (superior, anterior, normal) of vault_
   Vec3 worn_centre_;                                  // of the face; centre_ where it is not worn
   double face_radius_mm_ = 0;
   Vec3 sphere_centre_, head_centre_;

@@ -18,8 +18,9 @@
 namespace ream::ct {
 namespace {
 
-constexpr PhantomType all_types[] = {PhantomType::a1, PhantomType::a2, PhantomType::b2,
-                                     PhantomType::osteophytes, PhantomType::osteoporotic};
+constexpr PhantomType all_types[] = {PhantomType::a1, PhantomType::a2,          PhantomType::b1,
+                                     PhantomType::b2, PhantomType::b3,          PhantomType::c1,
+                                     PhantomType::d,  PhantomType::osteophytes, PhantomType::osteoporotic};
 
 PhantomParams coarse(PhantomType type) {
   PhantomParams p;
@@ -165,6 +166,67 @@ TEST(PhantomTypes, B2IsBiconcaveRetrovertedAndScleroticBehind) {
   EXPECT_GT(
       (b2.truth.humeral_head_centre_mm - b2.truth.glenoid.centre_mm).y(),
       (make_phantom(coarse(PhantomType::a1)).truth.humeral_head_centre_mm - b2.truth.glenoid.centre_mm).y());
+}
+
+struct Class {
+  PhantomType type;
+  double least_version_deg, most_version_deg, least_subluxation_percent, most_subluxation_percent;
+};
+
+/// Bercik 2016 (science 2.1); of subluxation behind the scapular axis, 50 is centred.
+TEST(PhantomTypes, MeasureAsWalchsClassesAreDefined) {
+  const Class classes[] = {{PhantomType::a1, -10, 5, 45, 55},
+                           {PhantomType::b1, -10, 5, 55, 80},
+                           {PhantomType::b3, -31, -15, 65, 95},
+                           {PhantomType::c1, -40, -25, 50, 100},
+                           {PhantomType::d, 0.5, 20, 0, 40}};
+  for (const Class& c : classes) {
+    SCOPED_TRACE(to_text(c.type));
+    for (const bool anatomical : {false, true}) {
+      PhantomParams params = coarse(c.type);
+      if (anatomical) params.anatomical = AnatomicalSizes{};
+      const GroundTruth truth = make_phantom(params).truth;
+      const case_::Measures m = case_::measure(truth.landmarks, params.side);
+      const double version_deg = degrees_from_radians(*m.version_3d_rad);
+      EXPECT_NEAR(version_deg, degrees_from_radians(truth.version_rad), 1e-6);
+      EXPECT_NEAR(*m.inclination_3d_rad, truth.inclination_rad, 1e-8);
+      EXPECT_GT(version_deg, c.least_version_deg);
+      EXPECT_LT(version_deg, c.most_version_deg);
+      EXPECT_GT(*m.subluxation_percent, c.least_subluxation_percent);
+      EXPECT_LT(*m.subluxation_percent, c.most_subluxation_percent);
+      EXPECT_EQ(truth.landmarks.walch, to_text(c.type));
+      EXPECT_FALSE(m.biconcavity);
+    }
+  }
+}
+
+/// 14 +- 4 mm medial at the worst place, against the glenoid that it was; all of it within that one.
+TEST(PhantomTypes, B3IsWhatWearHasLeftOfTheNativeVault) {
+  const PhantomParams worn = coarse(PhantomType::b3);
+  const auto before = true_density_g_cc(coarse(PhantomType::a1)), after = true_density_g_cc(worn);
+  const GroundTruth truth = make_phantom(worn).truth;
+  EXPECT_EQ(*truth.premorbid_version_rad, worn.version_rad);
+  const Vec3 centre = make_phantom(coarse(PhantomType::a1)).truth.glenoid.centre_mm;
+  const Vec3 lateral = (centre - truth.spine_root_mm).normalized();
+  double worst_mm = 0.0;
+  for (double up = -9.0; up <= 6.0; up += 3.0)
+    for (double back = -7.5; back <= 7.5; back += 1.5) {
+      const Vec3 at = centre + up * truth.glenoid.superior - back * truth.glenoid.anterior;
+      double first_before = 0, first_after = 0;
+      for (double depth = 25.0; depth >= -10.0; depth -= 0.1) {
+        const Vec3 p = at - depth * lateral;
+        if (before(p) > 0.0) first_before = depth;
+        if (after(p) > 0.0) first_after = depth;
+        EXPECT_FALSE(after(p) > 0.0 && before(p) == 0.0) << "bone has grown";
+      }
+      worst_mm = std::max(worst_mm, first_after - first_before);
+    }
+  EXPECT_NEAR(worst_mm, 14.0, 4.0);  // within 7.5 mm of the middle
+  // Sclerotic behind, under the plate.
+  const Vec3 behind =
+      *truth.landmarks.posterior_rim_mm +
+      5.0 * (*truth.landmarks.glenoid_centre_mm - *truth.landmarks.posterior_rim_mm).normalized();
+  EXPECT_GT(after(behind - (worn.plate_mm + 2.0) * lateral), 1.0);
 }
 
 TEST(PhantomTypes, OsteophytesAddBoneOutsideTheNativeRimOnly) {
