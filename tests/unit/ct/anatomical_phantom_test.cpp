@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 
 #include "case/measures.hpp"
@@ -188,9 +189,13 @@ TEST(AnatomicalPhantom, ANumberIsOnePersonAndNumbersAreDifferentPeople) {
   EXPECT_NE(seven.anatomical->coracoid_lateral_mm, eight.anatomical->coracoid_lateral_mm);
 }
 
-/// All in one piece, apart from the humerus, by seed points, as a user's CT would be segmented.
-TEST(AnatomicalPhantom, SeveralPeoplesScapulaeAreSegmentedApartFromTheirHumerus) {
-  for (const uint64_t number : {1, 2, 3}) {
+/// As a user's CT would be segmented, without a seed point. Three people; REAM_INDIVIDUALS sets how many.
+TEST(AnatomicalPhantom, PeoplesScapulaeAreSegmentedApartFromTheirHumerus) {
+  const char* wanted = std::getenv("REAM_INDIVIDUALS");
+  const uint64_t count = wanted ? std::strtoull(wanted, nullptr, 10) : 3;
+  double least = 1.0;
+  size_t most_wrong = 0;
+  for (uint64_t number = 1; number <= count; ++number) {
     SCOPED_TRACE("person " + std::to_string(number));
     PhantomParams params = individual(number);
     params.spacing_mm = Vec3(1.0, 1.0, 1.25);
@@ -199,9 +204,19 @@ TEST(AnatomicalPhantom, SeveralPeoplesScapulaeAreSegmentedApartFromTheirHumerus)
     SegmentationSettings settings;
     settings.side = params.side;
     const Segmentation found = segment_shoulder(phantom.volume, settings);
-    EXPECT_GT(dice(found.labels, truth, 1), 0.9);
-    EXPECT_LT(static_cast<double>(count_both(found.labels, 1, truth, 2)), 200.0);
+    const double agreement = dice(found.labels, truth, 1);
+    const size_t wrong = count_both(found.labels, 1, truth, 2) + count_both(found.labels, 2, truth, 1);
+    // The body is two voxels thin: a threshold takes what bone fills by a quarter.
+    EXPECT_GT(agreement, 0.9);
+    EXPECT_GT(count_both(found.labels, 1, truth, 1), count_both(truth, 1, truth, 1) * 97 / 100);
+    EXPECT_LT(wrong, 50u) << "taken for the other bone";
+    ASSERT_TRUE(found.head);
+    EXPECT_LT((found.head->centre_mm - phantom.truth.humeral_head_centre_mm).norm(), 1.5);
+    least = std::min(least, agreement);
+    most_wrong = std::max(most_wrong, wrong);
   }
+  std::printf("scapulae of %d people: least Dice %.4f, at most %zu voxels taken for the other bone\n",
+              static_cast<int>(count), least, most_wrong);
 }
 
 }  // namespace
