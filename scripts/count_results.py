@@ -130,6 +130,8 @@ def main() -> int:
         if counts.failed and suite not in READERS:
             print_last_words(folder, suite)
     print("== results")
+    seconds = {path.stem: path.read_text().strip() for path in folder.glob("*.seconds")}
+    print("seconds: " + ", ".join(f"{name} {taken}" for name, taken in sorted(seconds.items())))
     passed = failed = skipped = 0
     for suite, counts in read.items():
         print(f"{suite}: {counts.passed} passed, {len(counts.failed)} failed, {len(counts.skipped)} skipped")
