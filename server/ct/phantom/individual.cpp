@@ -20,7 +20,7 @@ enum Trait : uint64_t {
   joint_space,
   size,
   acromion_out,
-  acromion_up,
+  above_head,
   coracoid_out,
   coracoid_front,
   bow
@@ -67,7 +67,13 @@ constexpr Spread plate_mm{1.9, 0.32}, shell_mm{1.2, 0.15}, joint_space_mm{4.0, 0
 constexpr double mean_scale = 0.95, scale_per_height = 0.55;
 constexpr Spread scale_beside_height{0.0, 0.055};
 // Critical shoulder angle 29.8 +- 3.5 degrees (Mah 2021), acromion to coracoid 31.1 +- 4.1 mm.
-constexpr Spread acromion_lateral_mm{0.0, 3.0}, acromion_superior_mm{0.5, 0.9};
+constexpr Spread acromion_lateral_mm{0.0, 3.0};
+// The acromion lies above the head by 6.6 +- 1.2 mm (166 shoulders, J Orthop Surg Res 2020), the head by its
+// own radius and the joint space beside the face; the mean acromion's lower side lies so high.
+constexpr Spread acromiohumeral_mm{7.0, 1.0};
+constexpr double mean_underside_mm = 33.0;
+// Heads have radii of 24 +- 2 mm; a face is flatter than the head and its cartilage.
+constexpr double head_radius_per_scale_mm = 25.0, least_mismatch_mm = 1.0;
 // Coracoid beyond the rim 14.9 +- 6 mm (200 scapulae, Sapienza).
 constexpr Spread coracoid_lateral_mm{1.0, 4.5}, coracoid_anterior_mm{1.0, 2.5}, body_bow_mm{6.0, 1.5};
 
@@ -83,7 +89,6 @@ PhantomParams individual(uint64_t number) {
   p.glenoid_width_mm = width_per_height * p.glenoid_height_mm + person.draw(width, beside_height_mm);
   p.version_rad = radians_from_degrees(person.draw(version, version_deg));
   p.inclination_rad = radians_from_degrees(person.draw(inclination, inclination_deg));
-  p.glenoid_radius_mm = person.draw(radius, radius_mm);
   p.plate_mm = person.draw(plate, plate_mm);
   p.shell_mm = person.draw(shell, shell_mm);
   p.joint_space_mm = person.draw(joint_space, joint_space_mm);
@@ -91,7 +96,13 @@ PhantomParams individual(uint64_t number) {
   sizes.scale = mean_scale * (1.0 + scale_per_height * (p.glenoid_height_mm / height_mm.mean - 1.0) +
                               person.draw(size, scale_beside_height));
   sizes.acromion_lateral_mm = person.draw(acromion_out, acromion_lateral_mm);
-  sizes.acromion_superior_mm = person.draw(acromion_up, acromion_superior_mm);
+  p.head_radius_mm = head_radius_per_scale_mm * sizes.scale;
+  const double beside_face_mm = p.joint_space_mm + p.head_radius_mm;
+  p.glenoid_radius_mm = std::max(person.draw(radius, radius_mm), beside_face_mm + least_mismatch_mm);
+  // Superior inclination lifts the head; its tangent is near enough to the angle.
+  const double top_of_head_mm = beside_face_mm * p.inclination_rad + p.head_radius_mm;
+  sizes.acromion_superior_mm =
+      (top_of_head_mm + person.draw(above_head, acromiohumeral_mm)) / sizes.scale - mean_underside_mm;
   sizes.coracoid_lateral_mm = person.draw(coracoid_out, coracoid_lateral_mm);
   sizes.coracoid_anterior_mm = person.draw(coracoid_front, coracoid_anterior_mm);
   sizes.body_bow_mm = person.draw(bow, body_bow_mm);

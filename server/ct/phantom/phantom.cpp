@@ -51,6 +51,7 @@ void check(const PhantomParams& p) {
   within("subchondral plate in mm", p.plate_mm, 0.0, 5.0);
   within("cortical shell in mm", p.shell_mm, 0.0, 5.0);
   within("joint space in mm", p.joint_space_mm, 1.0, 12.0);
+  within("radius of the humeral head in mm", p.head_radius_mm, 15.0, 32.0);
   within("noise in HU", p.noise_hu, 0.0, 500.0);
   for (int axis = 0; axis < 3; ++axis) within("voxel size in mm", p.spacing_mm[axis], 0.05, 10.0);
 }

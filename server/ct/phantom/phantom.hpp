@@ -51,6 +51,7 @@ struct PhantomParams {
   double plate_mm = 1.9;             ///< subchondral plate
   double shell_mm = 1.2;             ///< cortical shell elsewhere
   double joint_space_mm = 4.0;       ///< bone to bone
+  double head_radius_mm = 24.0;      ///< of the humerus
   double noise_hu = 15.0;            ///< standard deviation
   uint64_t random_seed = 1;
   Vec3 spacing_mm{0.668, 0.668, 0.625};

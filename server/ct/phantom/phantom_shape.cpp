@@ -17,7 +17,7 @@ constexpr double medial_end_mm = 103.0;
 
 constexpr double min_gradient = 0.3;
 constexpr double rim_rounding_mm = 0.8, joint_rounding_mm = 3.0;
-constexpr double head_radius_mm = PhantomShape::head_radius_mm, shaft_radius_mm = 12.0;
+constexpr double mean_head_radius_mm = 24.0, shaft_radius_mm = 12.0;
 
 // Wear: how far the face lies medial (B3: 14 +- 4 mm at its worst place, science 2.1), and by how much its
 // radius exceeds that of head and joint space.
@@ -101,7 +101,7 @@ PhantomShape::PhantomShape(const PhantomParams& params) : params_(params), centr
   face_anterior_ = face.anterior;
   const double wear_mm = wear_mm_of(params.type);
   worn_centre_ = wear_mm > 0.0 ? Vec3(centre_ - wear_mm * lateral_) : centre_;
-  face_radius_mm_ = wear_mm > 0.0 ? head_radius_mm + params.joint_space_mm + worn_radius_excess_mm
+  face_radius_mm_ = wear_mm > 0.0 ? params_.head_radius_mm + params.joint_space_mm + worn_radius_excess_mm
                                   : params.glenoid_radius_mm;
   sphere_centre_ = worn_centre_ + face_radius_mm_ * face_normal_;
   place_head();
@@ -121,13 +121,13 @@ PhantomShape::FaceFrame PhantomShape::frame_of(double version_rad) const {
 
 /// Opposite the middle of the face, or slid along it: there the joint space is narrower.
 void PhantomShape::place_head() {
-  head_centre_ = worn_centre_ + (params_.joint_space_mm + head_radius_mm) * face_normal_;
+  head_centre_ = worn_centre_ + (params_.joint_space_mm + params_.head_radius_mm) * face_normal_;
   const double slid_back = params_.type == PhantomType::b1  ? slid_sine
                            : params_.type == PhantomType::d ? -slid_sine
                                                             : 0.0;
   if (slid_back == 0.0) return;
   const double narrowest_mm = narrowed_share * params_.joint_space_mm;
-  const double from_centre_mm = std::max(0.0, face_radius_mm_ - head_radius_mm - narrowest_mm);
+  const double from_centre_mm = std::max(0.0, face_radius_mm_ - params_.head_radius_mm - narrowest_mm);
   const double straight = std::sqrt(1.0 - slid_back * slid_back);
   head_centre_ = sphere_centre_ - from_centre_mm * (straight * face_normal_ + slid_back * face_anterior_);
 }
@@ -230,8 +230,12 @@ Vec3 PhantomShape::on_scapula(const Vec3& near_mm) const {
 }
 
 double PhantomShape::humerus_mm(const Vec3& world_mm) const {
-  const double head = (world_mm - head_centre_).norm() - head_radius_mm;
-  if (anatomical_) return rounded_min(head, anatomical_shaft_mm(in_scapula(world_mm - head_centre_)), 4.0);
+  const double head = (world_mm - head_centre_).norm() - params_.head_radius_mm;
+  if (anatomical_) {
+    const double scale = params_.head_radius_mm / mean_head_radius_mm;
+    const double shaft = scale * anatomical_shaft_mm(in_scapula(world_mm - head_centre_) / scale);
+    return rounded_min(head, shaft, 4.0);
+  }
   const Vec3 shaft_top = head_centre_ + 10.0 * lateral_;
   const Vec3 shaft_end = shaft_top + Vec3(0.0, 0.0, -300.0) + 20.0 * lateral_;
   return rounded_min(head, capsule(world_mm, shaft_top, shaft_end, shaft_radius_mm, shaft_radius_mm), 6.0);
@@ -252,7 +256,7 @@ double PhantomShape::anatomical_shaft_mm(const Vec3& p) {
 /// turned medially; its sphere stands on that chord.
 void PhantomShape::carve_neoglenoid() {
   Neoglenoid neo;
-  neo.radius_mm = head_radius_mm + params_.joint_space_mm + neoglenoid_radius_excess_mm;
+  neo.radius_mm = params_.head_radius_mm + params_.joint_space_mm + neoglenoid_radius_excess_mm;
   const Vec3 ridge = centre_ - ridge_behind_middle_mm * face_anterior_ +
                      sagitta(face_radius_mm_, ridge_behind_middle_mm) * face_normal_;
   const Vec3 along = -turned_cos * face_anterior_ - turned_sin * face_normal_;
@@ -329,7 +333,7 @@ case_::Landmarks PhantomShape::landmarks() const {
   l.posterior_rim_mm = on_face(level, -back);
   l.trigonum_mm = world(anatomical_ ? anatomical_->spine_root() : spine_root);
   l.inferior_angle_mm = world(anatomical_ ? anatomical_->inferior_angle() : inferior_angle);
-  l.humeral_head = case_::HumeralHead{head_centre_, head_radius_mm};
+  l.humeral_head = case_::HumeralHead{head_centre_, params_.head_radius_mm};
   if (params_.type != PhantomType::osteophytes && params_.type != PhantomType::osteoporotic)
     l.walch = to_text(params_.type);
   if (neoglenoid_) {
@@ -357,7 +361,7 @@ GroundTruth PhantomShape::truth() const {
   truth.spine_root_mm = *truth.landmarks.trigonum_mm;
   truth.inferior_angle_mm = *truth.landmarks.inferior_angle_mm;
   truth.humeral_head_centre_mm = head_centre_;
-  truth.humeral_head_radius_mm = head_radius_mm;
+  truth.humeral_head_radius_mm = params_.head_radius_mm;
   if (turned_of(params_.type).worn_rad != 0.0) truth.premorbid_version_rad = params_.version_rad;
   if (neoglenoid_) add_biconcavity(truth);
   return truth;

@@ -21,7 +21,6 @@ class PhantomShape {
  public:
   /// The widest level lies below the middle by this share of the height (0.64 L from the superior pole).
   static constexpr double widest_below_middle = 0.14;
-  static constexpr double head_radius_mm = 24.0;
 
   explicit PhantomShape(const PhantomParams& params);
 
