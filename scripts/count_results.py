@@ -1,8 +1,8 @@
 """Sums the results that scripts/test left in a folder; the last line printed is the total.
 
 A suite is known by its <suite>.exit file (the exit code of its program). Suites that leave a results file are
-counted test by test; the others (formatting, lint) count as one test each. What a failed suite said last (<suite>.log)
-is printed once more before the totals, as a long log is often cut at its beginning. Exit 1 when anything failed, when a
+counted test by test; the others (formatting, lint) count as one test each. What a suite said last (<suite>.log) that
+failed without a test that did is printed once more before the totals, as a long log is often cut at its beginning. Exit 1 when anything failed, when a
 suite ran no test, or when a program failed although its tests say they passed.
 """
 
@@ -18,6 +18,8 @@ from pathlib import Path
 class Counts:
     passed: int = 0
     failed: list[str] = field(default_factory=list)
+    # It failed and no test says why: what it said last does.
+    unexplained: bool = False
     skipped: list[str] = field(default_factory=list)
 
 
@@ -95,14 +97,15 @@ READERS = {
 def read_suite(folder: Path, suite: str) -> Counts:
     exit_code = int((folder / f"{suite}.exit").read_text())
     if suite not in READERS:
-        return Counts(passed=1) if exit_code == 0 else Counts(failed=[f"exit code {exit_code}"])
+        return Counts(passed=1) if exit_code == 0 else Counts(failed=[f"exit code {exit_code}"], unexplained=True)
     file_name, read = READERS[suite]
     try:
         counts = read(folder / file_name)
     except (OSError, ValueError, KeyError, ElementTree.ParseError) as error:
-        return Counts(failed=[f"left no readable results ({error})"])
+        return Counts(failed=[f"left no readable results ({error})"], unexplained=True)
     if exit_code != 0 and not counts.failed:
         counts.failed.append(f"its program ended with exit code {exit_code}")
+        counts.unexplained = True
     if counts.passed == 0 and not counts.failed:
         counts.failed.append("it ran no test")
     return counts
@@ -125,9 +128,8 @@ def main() -> int:
     folder = Path(sys.argv[1])
     suites = sorted(path.stem for path in folder.glob("*.exit"))
     read = {suite: read_suite(folder, suite) for suite in suites}
-    # What is counted test by test names what failed; ctest and the browser say much more than fits.
     for suite, counts in read.items():
-        if counts.failed and suite not in READERS:
+        if counts.unexplained:
             print_last_words(folder, suite)
     print("== results")
     seconds = {path.stem: path.read_text().strip() for path in folder.glob("*.seconds")}

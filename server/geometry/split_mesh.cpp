@@ -1,5 +1,6 @@
 #include "geometry/split_mesh.hpp"
 
+#include <cassert>
 #include <map>
 #include <utility>
 
@@ -58,6 +59,7 @@ class Part {
 }  // namespace
 
 SplitMesh split_at(const TriangleMesh& mesh, std::span<const float> values, float level) {
+  assert(values.size() == mesh.vertices_mm.size());
   Part below(mesh, values, level), above(mesh, values, level);
   const auto is_above = [&](uint32_t vertex) { return values[vertex] >= level; };
   for (const auto& t : mesh.triangles) {

@@ -51,6 +51,8 @@ bool starts_frame(unsigned marker) {
 }
 
 constexpr unsigned starts_scan = 0xda;
+// Restart, start and end of a picture; and what is reserved, or no marker at all.
+constexpr unsigned first_bare = 0xd0, last_bare = 0xd9, first_segment = 0xc0;
 
 /// Of a frame header (SOF) without its marker.
 bool is_frame_of(std::string_view segment, int columns, int rows, int bytes_a_value) {
@@ -74,6 +76,8 @@ std::string jpeg_problem(std::string_view bytes, int columns, int rows, int byte
       ++at;
       continue;
     }
+    // Markers without a length, which no stream has here: the library would read headers within what follows.
+    if (marker < first_segment || (marker >= first_bare && marker <= last_bare)) return damaged;
     const size_t length = two_at(bytes, at + 2);
     if (length < 2 || at + 2 + length > bytes.size()) return damaged;
     if (marker == starts_scan) return has_frame ? "" : damaged;

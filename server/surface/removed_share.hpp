@@ -45,7 +45,8 @@ int removed_level(const std::array<int64_t, 3>& at_units, int max_level, Sample&
       std::clamp<int64_t>(max_level * std::min(depth, lost) / (one * whole_loss), 0, max_level));
 }
 
-/// Where so much of half a voxel is gone the bone counts as cut, on pictures and on the page.
+/// Where so much of half a voxel is gone the bone is painted as cut, on pictures and on the page. (What is
+/// compared with a plan is any voxel that has lost something: score::cut_vertices.)
 inline constexpr float cut_share = 0.3f;
 
 /// removed_level of points of a surface, 0 to 1 each: grid frame, mm. `before` and `now` have

@@ -3,11 +3,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 
 #include "app/cli/commands.hpp"
 #include "case/landmarks.hpp"
 #include "core/atomic_file.hpp"
 #include "core/file.hpp"
+#include "core/hash.hpp"
 #include "core/units.hpp"
 #include "ct/phantom/individual.hpp"
 #include "ct/phantom/phantom_case.hpp"
@@ -16,13 +18,16 @@
 namespace ream::app {
 namespace {
 
+constexpr double default_version_deg = -2.0, default_inclination_deg = 4.2;
+
 struct PhantomOptions {
   std::filesystem::path out;
   std::optional<uint64_t> individual;
   std::optional<double> version_deg, inclination_deg, radius_mm, spacing_mm;
   double noise_hu = ct::PhantomParams{}.noise_hu;
   std::optional<uint64_t> random_seed;
-  std::string side = "right", type = "A1", shape = "anatomical", format = "dicom", preset;
+  std::optional<std::string> shape;
+  std::string side = "right", type = "A1", format = "dicom", preset;
 };
 
 void write_volume(const ct::HuVolume& volume, const PhantomOptions& options, uint64_t random_seed,
@@ -40,17 +45,24 @@ ct::PhantomParams params_of(const PhantomOptions& options) {
     const ct::PhantomParams preset = ct::phantom_preset(options.preset).params;
     params.field_mm = preset.field_mm;
     params.spacing_mm = preset.spacing_mm;
-    params.glenoid_height_mm = preset.glenoid_height_mm;
-    params.glenoid_width_mm = preset.glenoid_width_mm;
+    if (!options.individual) {
+      params.glenoid_height_mm = preset.glenoid_height_mm;
+      params.glenoid_width_mm = preset.glenoid_width_mm;
+      params.anatomical = preset.anatomical;
+    }
   }
   params.side = case_::side_from_text(options.side);
   params.type = ct::phantom_type_from_text(options.type);
-  if (options.shape == "simple")
+  const bool is_simple =
+      options.shape ? *options.shape == "simple" : !options.preset.empty() && !params.anatomical;
+  if (is_simple)
     params.anatomical.reset();
   else if (!params.anatomical)
     params.anatomical = ct::AnatomicalSizes{};
-  if (options.version_deg) params.version_rad = radians_from_degrees(*options.version_deg);
-  if (options.inclination_deg) params.inclination_rad = radians_from_degrees(*options.inclination_deg);
+  if (options.version_deg || !options.individual)
+    params.version_rad = radians_from_degrees(options.version_deg.value_or(default_version_deg));
+  if (options.inclination_deg || !options.individual)
+    params.inclination_rad = radians_from_degrees(options.inclination_deg.value_or(default_inclination_deg));
   if (options.radius_mm) params.glenoid_radius_mm = *options.radius_mm;
   if (options.spacing_mm) params.spacing_mm = Vec3::Constant(*options.spacing_mm);
   params.noise_hu = options.noise_hu;
@@ -58,11 +70,19 @@ ct::PhantomParams params_of(const PhantomOptions& options) {
   return params;
 }
 
+/// Of the identifiers of a DICOM series: two phantoms of one individual are not taken for one.
+uint64_t uid_seed(const PhantomOptions& options, const ct::PhantomParams& params) {
+  if (!options.individual) return params.random_seed;
+  const std::string words =
+      options.type + ' ' + options.side + (params.anatomical ? " anatomical" : " simple");
+  return hash_combine(params.random_seed, hash_bytes(std::as_bytes(std::span(words))));
+}
+
 void phantom(const PhantomOptions& options, const GlobalOptions& global) {
   AtomicFolder folder(options.out);
   const ct::PhantomParams params = params_of(options);
   const ct::Phantom made = ct::make_phantom(params);
-  write_volume(made.volume, options, params.random_seed, folder.path());
+  write_volume(made.volume, options, uid_seed(options, params), folder.path());
   const nlohmann::json truth = ct::to_json(made.truth);
   write_json_file(folder.path() / "ground_truth.json", truth);
   case_::save_landmarks(made.truth.landmarks, folder.path());
@@ -113,9 +133,8 @@ void add_phantom_command(CLI::App& app, GlobalOptions& global) {
       ->add_option(
           "--shape", options->shape,
           "anatomical, or simple: body, acromion, coracoid and humerus of plain bars and plates, around "
-          "the same glenoid")
-      ->check(CLI::IsMember({"anatomical", "simple"}))
-      ->capture_default_str();
+          "the same glenoid. Default: anatomical; with --preset, that case's")
+      ->check(CLI::IsMember({"anatomical", "simple"}));
   command
       ->add_option(
           "--individual", options->individual,

@@ -153,12 +153,13 @@ double FlatSweep::value(const Vec3& p) const {
 }
 
 ProcessBases process_bases(const Vec3& p) {
-  const Vec3 notch(-14.0, 12.0, 20.0), corner(8.0, 26.0, 34.0);
+  const Vec3 notch(-14.0, 12.0, 20.0);
   const Vec3 neck_top(-28.0, 10.0, 2.0), spine_start(-103.0, 0.0, 1.0);
   double spine = triangle_distance(p, spine_start, neck_top, notch) - 1.6;
   spine = rounded_min(spine, capsule(p, spine_start, notch, 2.5, 4.5), part_rounding_mm);
-  const Vec3 coracoid_base(-16.0, 15.0, -2.0), coracoid_bend(-10.0, 32.0, -14.0);
-  return {spine, capsule(p, notch, corner, 4.5, 5.5), capsule(p, coracoid_base, coracoid_bend, 6.0, 6.0)};
+  const Vec3 coracoid_base(-16.0, 15.0, -2.0);
+  return {spine, capsule(p, notch, acromion_corner, 4.5, 5.5),
+          capsule(p, coracoid_base, coracoid_bend, coracoid_radius_mm, coracoid_radius_mm)};
 }
 
 AnatomicalScapula::AnatomicalScapula(const AnatomicalSizes& sizes)
@@ -186,14 +187,14 @@ double AnatomicalScapula::processes_value(const Vec3& p) const {
   double d = rounded_min(bases.spine, bases.acromion, part_rounding_mm);
   d = rounded_min(d, crest_.value(mean), part_rounding_mm);
   d = rounded_min(d, acromion_.value(mean), part_rounding_mm);
-  // The knuckle is round, and the simple phantom's.
-  const Vec3 bend(-10.0, 32.0, -14.0), knuckle_end(-5.0, 30.75, -19.0);
-  const double knuckle = capsule(mean, bend, knuckle_end, 6.0, 5.625);
+  // The knuckle is round: the first quarter of the simple phantom's hook.
+  constexpr double knuckle_share = 0.25;
+  const Vec3 knuckle_end = coracoid_bend + knuckle_share * (coracoid_tip - coracoid_bend);
+  const double knuckle_radius_mm =
+      coracoid_radius_mm + knuckle_share * (coracoid_tip_radius_mm - coracoid_radius_mm);
+  const double knuckle = capsule(mean, coracoid_bend, knuckle_end, coracoid_radius_mm, knuckle_radius_mm);
   const double coracoid = std::min(coracoid_.value(mean), knuckle);
   return sizes_.scale * std::min(d, rounded_min(bases.coracoid, coracoid, part_rounding_mm));
 }
-
-Vec3 AnatomicalScapula::spine_root() const { return sizes_.scale * Vec3(-105.0, 0.0, 0.0); }
-Vec3 AnatomicalScapula::inferior_angle() const { return sizes_.scale * Vec3(-88.0, -108.0, 0.0); }
 
 }  // namespace ream::ct

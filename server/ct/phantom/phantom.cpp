@@ -88,15 +88,21 @@ double compact_g_cc(const PhantomParams& p) {
   return is_porotic(p) ? porotic_compact * cortical_g_cc : cortical_g_cc;
 }
 
-/// Density of what is not compact at a point of a right shoulder.
-double spongy_g_cc(const PhantomShape& shape, const PhantomParams& p, const Vec3& world, double depth_mm) {
+/// Density of spongy bone that nothing has worn.
+double sound_spongy_g_cc(const PhantomShape& shape, const PhantomParams& p, const Vec3& world,
+                         double depth_mm) {
   const double healthy = cancellous_g_cc(shape.posterior_mm(world), depth_mm);
-  if (is_porotic(p)) return porotic_spongy * healthy;
+  return is_porotic(p) ? porotic_spongy * healthy : healthy;
+}
+
+/// Density of what is not compact at a point of a right shoulder's scapula.
+double spongy_g_cc(const PhantomShape& shape, const PhantomParams& p, const Vec3& world, double depth_mm) {
+  const double sound = sound_spongy_g_cc(shape, p, world, depth_mm);
   const double worn = p.type == PhantomType::b2 ? shape.depth_under_neoglenoid_mm(world) : depth_mm;
   const bool behind =
-      p.type == PhantomType::b2 || (p.type == PhantomType::b3 && shape.posterior_mm(world) > 0.0);
+      p.type == PhantomType::b2 || (p.type == PhantomType::b3 && shape.is_behind_middle(world));
   const bool sclerotic = behind && worn < p.plate_mm + sclerotic_mm && worn == depth_mm;
-  return sclerotic ? sclerotic_g_cc : healthy;
+  return sclerotic ? sclerotic_g_cc : sound;
 }
 
 /// HU without noise at a point of a right shoulder.
@@ -107,10 +113,13 @@ double tissue_hu(const PhantomShape& shape, const PhantomParams& p, const Vec3& 
   if (filled == 0.0) return soft_tissue_hu;
   const double shell = inside_share(-(bone + p.shell_mm), voxel_mm);
   const double depth = shape.depth_under_face_mm(world);
-  const double plate =
-      scapula < head && depth < p.plate_mm + voxel_mm ? inside_share(depth - p.plate_mm, voxel_mm) : 0.0;
+  const bool in_scapula = scapula < head;
+  const double plate = in_scapula && depth < p.plate_mm + voxel_mm && !shape.is_process(world)
+                           ? inside_share(depth - p.plate_mm, voxel_mm)
+                           : 0.0;
   const double compact = std::max(shell, plate);
-  const double spongy = spongy_g_cc(shape, p, world, depth);
+  const double spongy =
+      in_scapula ? spongy_g_cc(shape, p, world, depth) : sound_spongy_g_cc(shape, p, world, depth);
   const double density = compact * compact_g_cc(p) + (1.0 - compact) * spongy;
   return filled * hu_of_apparent_density(density, p.calibration) + (1.0 - filled) * soft_tissue_hu;
 }
@@ -230,7 +239,8 @@ std::function<double(const Vec3&)> true_density_g_cc(const PhantomParams& params
     const Vec3 world = p.side == case_::Side::left ? mirrored(world_mm) : world_mm;
     const double scapula = shape.scapula_mm(world), depth = shape.depth_under_face_mm(world);
     if (scapula > 0.0) return 0.0;
-    if (scapula > -p.shell_mm || depth < p.plate_mm) return compact_g_cc(p);
+    if (scapula > -p.shell_mm) return compact_g_cc(p);
+    if (depth < p.plate_mm && !shape.is_process(world)) return compact_g_cc(p);
     return spongy_g_cc(shape, p, world, depth);
   };
 }

@@ -21,9 +21,9 @@ namespace ream::ct {
 ///   neoglenoid turned 26 degrees further into retroversion, with a sclerotic zone of 4 mm under it and the
 ///   head subluxated into it;
 /// - b3: one concave face, worn 9 mm medial and turned 18 degrees further into retroversion than was asked
-///   for, sclerotic behind; the vault is what is left of the native one;
-/// - c1: never grown in full: 25 degrees more retroverted than was asked for, without wear;
-/// - d: 12 degrees less retroverted than was asked for, the head slid forward;
+///   for, to 16 degrees at least, sclerotic behind; the vault is what is left of the native one;
+/// - c1: never grown in full: 25 degrees more retroverted than was asked for, 26 at least, without wear;
+/// - d: 12 degrees less retroverted than was asked for, anteverted by 1 at least, the head slid forward;
 /// - osteophytes: as a1, with osteophytes outside the lower half of the native rim;
 /// - osteoporotic: as a1, with about two thirds of the densities and thinner plate and shell; a threshold of
 ///   100 HU keeps its spongy bone.
@@ -34,6 +34,9 @@ std::string to_text(PhantomType type);
 PhantomType phantom_type_from_text(const std::string& text);
 /// All words, in order.
 std::vector<std::string> phantom_type_texts();
+
+/// Of the humerus.
+inline constexpr double mean_head_radius_mm = 24.0;
 
 /// A parametric shoulder. Lengths mm, angles rad (retroversion negative, superior inclination positive;
 /// science 2.1). Typical values from science 2.4.
@@ -51,8 +54,8 @@ struct PhantomParams {
   double plate_mm = 1.9;             ///< subchondral plate
   double shell_mm = 1.2;             ///< cortical shell elsewhere
   double joint_space_mm = 4.0;       ///< bone to bone
-  double head_radius_mm = 24.0;      ///< of the humerus
-  double noise_hu = 15.0;            ///< standard deviation
+  double head_radius_mm = mean_head_radius_mm;
+  double noise_hu = 15.0;  ///< standard deviation
   uint64_t random_seed = 1;
   Vec3 spacing_mm{0.668, 0.668, 0.625};
   /// The volume's box about the glenoid centre for a right shoulder, LPS (medial is +x, anterior -y); a left
@@ -65,14 +68,15 @@ struct PhantomParams {
 struct GroundTruth {
   case_::Side side = case_::Side::right;
   PhantomType type = PhantomType::a1;
-  /// Of the native face (3D, science 2.1); of a biconcave one along its intermediate line.
+  /// Of the face as it is (3D, science 2.1); of a biconcave one along its intermediate line.
   double version_rad = 0, inclination_rad = 0;
   /// As it was asked for, before the wear of a biconcave or a B3 glenoid. Of a biconcave one: along the
   /// paleoglenoid's chord (anterior rim to ridge); along the neoglenoid's.
   std::optional<double> premorbid_version_rad, paleo_version_rad, neo_version_rad;
   case_::GlenoidFrame glenoid;  ///< centre on the articular surface; lateral is the face normal
   Vec3 articular_sphere_centre_mm = Vec3::Zero();
-  double articular_radius_mm = 0, glenoid_height_mm = 0, glenoid_width_mm = 0, plate_mm = 0;
+  double articular_radius_mm = 0, plate_mm = 0;
+  double glenoid_height_mm = 0, glenoid_width_mm = 0;                   ///< before any wear
   Vec3 spine_root_mm = Vec3::Zero(), inferior_angle_mm = Vec3::Zero();  ///< landmarks TS and AI
   Vec3 humeral_head_centre_mm = Vec3::Zero();
   double humeral_head_radius_mm = 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "core/units.hpp"
 #include "ct/phantom/implicit_solids.hpp"
 
@@ -15,9 +16,11 @@ const Vec3 glenoid_centre_mm(-150.0, -10.0, 20.0);
 
 constexpr double medial_end_mm = 103.0;
 
+const double max_version_rad = radians_from_degrees(50.0);
 constexpr double min_gradient = 0.3;
+constexpr double least_gap_mm = 2.0;  // between the humerus and acromion or coracoid
 constexpr double rim_rounding_mm = 0.8, joint_rounding_mm = 3.0;
-constexpr double mean_head_radius_mm = 24.0, shaft_radius_mm = 12.0;
+constexpr double shaft_radius_mm = 12.0;
 
 // Wear: how far the face lies medial (B3: 14 +- 4 mm at its worst place, science 2.1), and by how much its
 // radius exceeds that of head and joint space.
@@ -31,25 +34,31 @@ double wear_mm_of(PhantomType type) {
 struct Turned {
   double native_rad = 0, worn_rad = 0;
 };
-Turned turned_of(PhantomType type) {
-  if (type == PhantomType::b3) return {0, radians_from_degrees(-18.0)};
-  if (type == PhantomType::c1) return {radians_from_degrees(-25.0), 0};
-  if (type == PhantomType::d) return {radians_from_degrees(12.0), 0};
-  return {};
+Turned turned_of(const PhantomParams& params) {
+  const double asked = params.version_rad;
+  const auto by = [](double degrees, double limit_deg) {
+    return std::pair{radians_from_degrees(degrees), radians_from_degrees(limit_deg)};
+  };
+  const auto [turn, limit] = params.type == PhantomType::b3   ? by(-18.0, -16.0)
+                             : params.type == PhantomType::c1 ? by(-25.0, -26.0)
+                             : params.type == PhantomType::d  ? by(12.0, 1.0)
+                                                              : std::pair{0.0, 0.0};
+  if (turn == 0.0) return {};
+  const double made = turn < 0.0 ? std::min(asked + turn, limit) : std::max(asked + turn, limit);
+  return params.type == PhantomType::b3 ? Turned{0.0, made - asked} : Turned{made - asked, 0.0};
 }
 
-// A head that has slid: where it comes closest, seen from the middle of the face's sphere, and the joint
-// space that is left there.
-constexpr double slid_sine = 0.6, narrowed_share = 0.4;
+// A head that has slid: how far, as a share of its radius (B1 over 55 % subluxated, D under 40; half a share
+// is a percent of the diameter), the joint space that is left where it comes closest, and the largest sine of
+// the direction of that place, seen from the middle of the face's sphere.
+constexpr double slid_share = 0.27, narrowed_share = 0.4, max_slid_sine = 0.8;
+bool has_slid(PhantomType type) { return type == PhantomType::b1 || type == PhantomType::d; }
 
 /// sin and cos of the platform's library can differ in the last bit; rounded far below any voxel they do not.
 double settled(double v) { return std::floor(v * 1099511627776.0 + 0.5) / 1099511627776.0; }
 double sine(double a) { return settled(std::sin(a)); }
 double cosine(double a) { return settled(std::cos(a)); }
 double tangent(double a) { return settled(std::tan(a)); }
-
-// Landmarks in the scapular frame, mm.
-const Vec3 spine_root(-105.0, 0.0, 0.0), inferior_angle(-88.0, -108.0, 0.0);
 
 // The neoglenoid: where the ridge lies behind the middle of the face, how long its chord is as a share of the
 // glenoid's width, and how far it is turned into retroversion (26 degrees) against the paleoglenoid.
@@ -90,8 +99,13 @@ PhantomShape::PhantomShape(const PhantomParams& params) : params_(params), centr
   lateral_ = Vec3(-c, -s, 0.0);
   superior_ = Vec3::UnitZ();
   posterior_ = Vec3(-s, c, 0.0);
-  const double native_rad = params.version_rad + turned_of(params.type).native_rad;
-  version_rad_ = native_rad + turned_of(params.type).worn_rad;
+  const double native_rad = params.version_rad + turned_of(params).native_rad;
+  version_rad_ = native_rad + turned_of(params).worn_rad;
+  if (std::abs(version_rad_) > max_version_rad)
+    throw Error(ErrorKind::invalid_input,
+                "phantom: a glenoid of that type and version would be turned by " +
+                    std::to_string(std::lround(degrees_from_radians(version_rad_))) +
+                    " degrees, must be between -50 and 50");
   vault_ = frame_of(native_rad);
   medial_in_vault_ =
       -Vec3(lateral_.dot(vault_.superior), lateral_.dot(vault_.anterior), lateral_.dot(vault_.normal));
@@ -103,6 +117,9 @@ PhantomShape::PhantomShape(const PhantomParams& params) : params_(params), centr
   worn_centre_ = wear_mm > 0.0 ? Vec3(centre_ - wear_mm * lateral_) : centre_;
   face_radius_mm_ = wear_mm > 0.0 ? params_.head_radius_mm + params.joint_space_mm + worn_radius_excess_mm
                                   : params.glenoid_radius_mm;
+  if (has_slid(params.type))
+    face_radius_mm_ = std::max(face_radius_mm_, params.head_radius_mm * (1.0 + slid_share / max_slid_sine) +
+                                                    narrowed_share * params.joint_space_mm);
   sphere_centre_ = worn_centre_ + face_radius_mm_ * face_normal_;
   place_head();
   if (params.type == PhantomType::b2) carve_neoglenoid();
@@ -122,14 +139,13 @@ PhantomShape::FaceFrame PhantomShape::frame_of(double version_rad) const {
 /// Opposite the middle of the face, or slid along it: there the joint space is narrower.
 void PhantomShape::place_head() {
   head_centre_ = worn_centre_ + (params_.joint_space_mm + params_.head_radius_mm) * face_normal_;
-  const double slid_back = params_.type == PhantomType::b1  ? slid_sine
-                           : params_.type == PhantomType::d ? -slid_sine
-                                                            : 0.0;
-  if (slid_back == 0.0) return;
-  const double narrowest_mm = narrowed_share * params_.joint_space_mm;
-  const double from_centre_mm = std::max(0.0, face_radius_mm_ - params_.head_radius_mm - narrowest_mm);
-  const double straight = std::sqrt(1.0 - slid_back * slid_back);
-  head_centre_ = sphere_centre_ - from_centre_mm * (straight * face_normal_ + slid_back * face_anterior_);
+  if (!has_slid(params_.type)) return;
+  const double from_centre_mm =
+      face_radius_mm_ - params_.head_radius_mm - narrowed_share * params_.joint_space_mm;
+  const double back_mm =
+      (params_.type == PhantomType::b1 ? slid_share : -slid_share) * params_.head_radius_mm;
+  const double out_mm = std::sqrt(from_centre_mm * from_centre_mm - back_mm * back_mm);
+  head_centre_ = sphere_centre_ - out_mm * face_normal_ - back_mm * face_anterior_;
 }
 
 double PhantomShape::depth_under_face_mm(const Vec3& world_mm) const {
@@ -180,23 +196,39 @@ double PhantomShape::body_value(const Vec3& offset) const {
 /// Spine, acromion and coracoid, scapular frame.
 double PhantomShape::processes_value(const Vec3& p) const {
   if (anatomical_) return anatomical_->processes_value(p);
-  const Vec3 corner(8.0, 26.0, 34.0), tip(30.0, 34.0, 8.0);
-  const Vec3 coracoid_bend(-10.0, 32.0, -14.0), coracoid_tip(10.0, 27.0, -34.0);
+  const Vec3 tip(30.0, 34.0, 8.0);
   const ProcessBases bases = process_bases(p);
   double d = rounded_min(bases.spine, bases.acromion, joint_rounding_mm);
-  d = rounded_min(d, capsule(p, corner, tip, 5.5, 5.0), joint_rounding_mm);
+  d = rounded_min(d, capsule(p, acromion_corner, tip, 5.5, 5.0), joint_rounding_mm);
   return std::min(
-      d, rounded_min(bases.coracoid, capsule(p, coracoid_bend, coracoid_tip, 6.0, 4.5), joint_rounding_mm));
+      d, rounded_min(bases.coracoid,
+                     capsule(p, coracoid_bend, coracoid_tip, coracoid_radius_mm, coracoid_tip_radius_mm),
+                     joint_rounding_mm));
+}
+
+double PhantomShape::body_under_face_value(const Vec3& world_mm) const {
+  const Vec3 offset = world_mm - centre_;
+  const double above = offset.dot(vault_.normal);
+  const double d = rounded_max(body_value(offset), -depth_under_face_mm(world_mm), rim_rounding_mm);
+  return std::max(d, above - 0.5 * params_.glenoid_radius_mm);
 }
 
 double PhantomShape::scapula_value(const Vec3& world_mm) const {
-  const Vec3 offset = world_mm - centre_;
-  const double above = offset.dot(vault_.normal);
-  double d = rounded_max(body_value(offset), -depth_under_face_mm(world_mm), rim_rounding_mm);
-  d = std::max(d, above - 0.5 * params_.glenoid_radius_mm);
+  double d = body_under_face_value(world_mm);
   if (params_.type == PhantomType::osteophytes)
     d = rounded_min(d, osteophytes_value(world_mm), rim_rounding_mm);
-  return rounded_min(d, processes_value(in_scapula(offset)), joint_rounding_mm);
+  double processes = processes_value(in_scapula(world_mm - centre_));
+  // Where a head has moved to an acromion or a coracoid, it has worn that.
+  if (anatomical_) processes = std::max(processes, least_gap_mm - humerus_mm(world_mm));
+  return rounded_min(d, processes, joint_rounding_mm);
+}
+
+bool PhantomShape::is_process(const Vec3& world_mm) const {
+  return anatomical_ && processes_value(in_scapula(world_mm - centre_)) < body_under_face_value(world_mm);
+}
+
+bool PhantomShape::is_behind_middle(const Vec3& world_mm) const {
+  return (world_mm - worn_centre_).dot(face_anterior_) < 0.0;
 }
 
 Vec3 PhantomShape::scapula_gradient(const Vec3& world_mm) const {
@@ -322,6 +354,7 @@ case_::Landmarks PhantomShape::landmarks() const {
     return centre_ + p.x() * lateral_ + p.y() * superior_ + p.z() * posterior_;
   };
   case_::Landmarks l;
+  const double scale = params_.anatomical ? params_.anatomical->scale : 1.0;
   const double level = -widest_below_middle * params_.glenoid_height_mm;
   const double pole = std::min(reach_superior_mm(1.0), reach_superior_mm(-1.0));
   double front = reach_anterior_mm(1.0), back = reach_anterior_mm(-1.0);
@@ -331,8 +364,8 @@ case_::Landmarks PhantomShape::landmarks() const {
   l.inferior_rim_mm = on_face(-pole, 0.0);
   l.anterior_rim_mm = on_face(level, front);
   l.posterior_rim_mm = on_face(level, -back);
-  l.trigonum_mm = world(anatomical_ ? anatomical_->spine_root() : spine_root);
-  l.inferior_angle_mm = world(anatomical_ ? anatomical_->inferior_angle() : inferior_angle);
+  l.trigonum_mm = world(scale * spine_root);
+  l.inferior_angle_mm = world(scale * inferior_angle);
   l.humeral_head = case_::HumeralHead{head_centre_, params_.head_radius_mm};
   if (params_.type != PhantomType::osteophytes && params_.type != PhantomType::osteoporotic)
     l.walch = to_text(params_.type);
@@ -362,7 +395,7 @@ GroundTruth PhantomShape::truth() const {
   truth.inferior_angle_mm = *truth.landmarks.inferior_angle_mm;
   truth.humeral_head_centre_mm = head_centre_;
   truth.humeral_head_radius_mm = params_.head_radius_mm;
-  if (turned_of(params_.type).worn_rad != 0.0) truth.premorbid_version_rad = params_.version_rad;
+  if (turned_of(params_).worn_rad != 0.0) truth.premorbid_version_rad = params_.version_rad;
   if (neoglenoid_) add_biconcavity(truth);
   return truth;
 }

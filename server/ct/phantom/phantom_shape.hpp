@@ -34,6 +34,10 @@ class PhantomShape {
   double depth_under_face_mm(const Vec3& world_mm) const;
   /// Depth under the neoglenoid's sphere, mm; far from it without one.
   double depth_under_neoglenoid_mm(const Vec3& world_mm) const;
+  /// In acromion, coracoid or spine of an anatomical scapula rather than in its vault or body.
+  bool is_process(const Vec3& world_mm) const;
+  /// Posterior of the middle of the face as it is.
+  bool is_behind_middle(const Vec3& world_mm) const;
   /// How far posterior of the glenoid centre a point lies, along the face, mm.
   double posterior_mm(const Vec3& world_mm) const;
 
@@ -44,6 +48,7 @@ class PhantomShape {
   double scapula_value(const Vec3& world_mm) const;
   Vec3 scapula_gradient(const Vec3& world_mm) const;
   double body_value(const Vec3& offset) const;
+  double body_under_face_value(const Vec3& world_mm) const;
   double processes_value(const Vec3& in_scapula) const;
   static double anatomical_shaft_mm(const Vec3& from_head_in_scapula);
   Vec3 in_scapula(const Vec3& offset) const;

@@ -40,6 +40,36 @@ TEST(Surroundings, AreWhatDoesNotLieInTheGridsBoxAndNoLooseCorners) {
   EXPECT_EQ(surroundings_of(strip(), grid).triangles.size(), 4u);
 }
 
+/// A plate that crosses the box: its upper side stands out most at the box's side, and by nothing far from
+/// it.
+TEST(Surroundings, CoverTheSeamAlongTheGridsSides) {
+  voxel::VoxelGrid grid;
+  grid.dims = {16, 16, 16};
+  grid.spacing_mm = Vec3::Constant(1.0);
+  TriangleMesh plate;
+  constexpr int steps = 40;
+  for (int i = 0; i <= steps; ++i)
+    for (int k = 0; k <= steps; ++k)
+      plate.vertices_mm.emplace_back(static_cast<float>(i), static_cast<float>(k - 12), 8.0f);
+  for (uint32_t i = 0; i < steps; ++i)
+    for (uint32_t k = 0; k < steps; ++k) {
+      const uint32_t a = i * (steps + 1) + k, b = a + steps + 1;
+      plate.triangles.push_back({a, b, a + 1});
+      plate.triangles.push_back({b, b + 1, a + 1});
+    }
+  const TriangleMesh around = surroundings_of(plate, grid);
+  float highest = 0.0f;
+  for (const Vec3f& vertex : around.vertices_mm) {
+    EXPECT_GE(vertex.z(), 8.0f);
+    const bool far = vertex.x() > 18.5f || vertex.y() > 18.5f || vertex.y() < -2.5f;
+    EXPECT_TRUE(!far || vertex.z() == 8.0f) << vertex.transpose();
+    const bool at_side = std::abs(vertex.x() - 16.0f) < 0.01f && vertex.y() > 1.0f && vertex.y() < 15.0f;
+    EXPECT_TRUE(!at_side || vertex.z() > 8.2f) << vertex.transpose();
+    highest = std::max(highest, vertex.z());
+  }
+  EXPECT_LE(highest, 8.25f);
+}
+
 TEST(Surroundings, AreNotDrawnWhereAReamerComesTo) {
   case_::Plan plan;
   plan.axis_direction = {1, 0, 0};

@@ -66,15 +66,21 @@ TEST_P(TransferSyntaxes, ATruncatedSliceIsNamed) {
 TEST(DicomVariants, APackedSliceWithRubbishBetweenItsHeadersIsNamed) {
   const test::TemporaryFolder folder;
   write_dicom_folder(stack_of_variants(), folder.path(), 1);
-  for (int i = 1; i <= 4; ++i)
-    test::transcode(slice_file(folder.path(), i), Syntax::JPEGLosslessProcess14_1);
+  for (int i = 1; i <= 4; ++i) test::transcode(slice_file(folder.path(), i), Syntax::JPEGLosslessProcess14_1);
   const fs::path file = slice_file(folder.path(), 3);
   std::string bytes = read_text_file(file);
-  const size_t tables = bytes.find("\xff\xc4", bytes.find("\xff\xd8\xff"));
+  const size_t start = bytes.find("\xff\xd8\xff"), tables = bytes.find("\xff\xc4", start);
   ASSERT_NE(tables, std::string::npos);
-  bytes[tables] = 0;
-  write_file_atomically(file, bytes);
-  test::expect_error(ErrorKind::invalid_input, "slice_0003.dcm", [&] { read_ct_files(folder.path()); });
+  const auto expect_refused_with = [&](size_t at, const std::string& instead) {
+    std::string changed = bytes;
+    changed.replace(at, instead.size(), instead);
+    write_file_atomically(file, changed);
+    test::expect_error(ErrorKind::invalid_input, "slice_0003.dcm", [&] { read_ct_files(folder.path()); });
+  };
+  expect_refused_with(tables, std::string("\0", 1));
+  // Markers that have no length: GDCM reads the next header at once, and would find another one there.
+  for (const char bare : {'\xd0', '\xd7', '\xd8', '\xd9', '\x01', '\x00'})
+    expect_refused_with(tables, std::string("\xff") + bare);
 }
 
 INSTANTIATE_TEST_SUITE_P(Dicom, TransferSyntaxes,
