@@ -1,9 +1,9 @@
 """Sums the results that scripts/test left in a folder; the last line printed is the total.
 
 A suite is known by its <suite>.exit file (the exit code of its program). Suites that leave a results file are
-counted test by test; the others (formatting, lint) count as one test each. What a suite said last (<suite>.log) that
-failed without a test that did is printed once more before the totals, as a long log is often cut at its beginning. Exit 1 when anything failed, when a
-suite ran no test, or when a program failed although its tests say they passed.
+counted test by test; the others (formatting, lint) count as one test each. When a suite failed and no test says why,
+what it said last (<suite>.log) is printed once more before the totals, as a long log is often cut at its beginning.
+Exit 1 when anything failed, when a suite ran no test, or when a program failed although its tests say they passed.
 """
 
 import json

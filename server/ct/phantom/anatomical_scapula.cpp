@@ -8,7 +8,6 @@
 namespace ream::ct {
 namespace {
 
-constexpr double part_rounding_mm = 3.0;
 constexpr int parts_per_span = 4;
 constexpr double far_mm = 8.0;  // beyond, a lower bound of the distance is enough
 
@@ -156,7 +155,7 @@ ProcessBases process_bases(const Vec3& p) {
   const Vec3 notch(-14.0, 12.0, 20.0);
   const Vec3 neck_top(-28.0, 10.0, 2.0), spine_start(-103.0, 0.0, 1.0);
   double spine = triangle_distance(p, spine_start, neck_top, notch) - 1.6;
-  spine = rounded_min(spine, capsule(p, spine_start, notch, 2.5, 4.5), part_rounding_mm);
+  spine = rounded_min(spine, capsule(p, spine_start, notch, 2.5, 4.5), joint_rounding_mm);
   const Vec3 coracoid_base(-16.0, 15.0, -2.0);
   return {spine, capsule(p, notch, acromion_corner, 4.5, 5.5),
           capsule(p, coracoid_base, coracoid_bend, coracoid_radius_mm, coracoid_radius_mm)};
@@ -184,9 +183,9 @@ double AnatomicalScapula::body_share(double depth_mm) {
 double AnatomicalScapula::processes_value(const Vec3& p) const {
   const Vec3 mean = p / sizes_.scale;
   const ProcessBases bases = process_bases(mean);
-  double d = rounded_min(bases.spine, bases.acromion, part_rounding_mm);
-  d = rounded_min(d, crest_.value(mean), part_rounding_mm);
-  d = rounded_min(d, acromion_.value(mean), part_rounding_mm);
+  double d = rounded_min(bases.spine, bases.acromion, joint_rounding_mm);
+  d = rounded_min(d, crest_.value(mean), joint_rounding_mm);
+  d = rounded_min(d, acromion_.value(mean), joint_rounding_mm);
   // The knuckle is round: the first quarter of the simple phantom's hook.
   constexpr double knuckle_share = 0.25;
   const Vec3 knuckle_end = coracoid_bend + knuckle_share * (coracoid_tip - coracoid_bend);
@@ -194,7 +193,7 @@ double AnatomicalScapula::processes_value(const Vec3& p) const {
       coracoid_radius_mm + knuckle_share * (coracoid_tip_radius_mm - coracoid_radius_mm);
   const double knuckle = capsule(mean, coracoid_bend, knuckle_end, coracoid_radius_mm, knuckle_radius_mm);
   const double coracoid = std::min(coracoid_.value(mean), knuckle);
-  return sizes_.scale * std::min(d, rounded_min(bases.coracoid, coracoid, part_rounding_mm));
+  return sizes_.scale * std::min(d, rounded_min(bases.coracoid, coracoid, joint_rounding_mm));
 }
 
 }  // namespace ream::ct

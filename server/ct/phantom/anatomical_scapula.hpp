@@ -63,6 +63,7 @@ class AnatomicalScapula {
 inline const Vec3 spine_root(-105.0, 0.0, 0.0), inferior_angle(-88.0, -108.0, 0.0);
 inline const Vec3 acromion_corner(8.0, 26.0, 34.0), coracoid_bend(-10.0, 32.0, -14.0),
     coracoid_tip(10.0, 27.0, -34.0);
+inline constexpr double joint_rounding_mm = 3.0;  // where two parts meet
 inline constexpr double coracoid_radius_mm = 6.0, coracoid_tip_radius_mm = 4.5;
 
 /// Spine and the bases of acromion and coracoid, which both phantoms share: what lies beyond is theirs.

@@ -37,7 +37,7 @@ class Person {
  public:
   explicit Person(uint64_t number) : number_(mix64(number)) {}
 
-  /// About normally distributed: the sum of twelve even numbers (Irwin and Hall), the same bits everywhere.
+  /// About normally distributed: the sum of twelve uniform ones (Irwin and Hall), the same bits everywhere.
   double deviations(Trait trait) const {
     double sum = -6.0;
     uint64_t state = hash_combine(number_, static_cast<uint64_t>(trait));

@@ -19,7 +19,7 @@ constexpr double medial_end_mm = 103.0;
 const double max_version_rad = radians_from_degrees(50.0);
 constexpr double min_gradient = 0.3;
 constexpr double least_gap_mm = 2.0;  // between the humerus and acromion or coracoid
-constexpr double rim_rounding_mm = 0.8, joint_rounding_mm = 3.0;
+constexpr double rim_rounding_mm = 0.8;
 constexpr double shaft_radius_mm = 12.0;
 
 // Wear: how far the face lies medial (B3: 14 +- 4 mm at its worst place, science 2.1), and by how much its
@@ -48,8 +48,8 @@ Turned turned_of(const PhantomParams& params) {
   return params.type == PhantomType::b3 ? Turned{0.0, made - asked} : Turned{made - asked, 0.0};
 }
 
-// A head that has slid: how far, as a share of its radius (B1 over 55 % subluxated, D under 40; half a share
-// is a percent of the diameter), the joint space that is left where it comes closest, and the largest sine of
+// A head that has slid: how far, as a share of its radius (B1 over 55 % subluxated, D under 40, both of the
+// diameter), the joint space that is left where it comes closest, and the largest sine of
 // the direction of that place, seen from the middle of the face's sphere.
 constexpr double slid_share = 0.27, narrowed_share = 0.4, max_slid_sine = 0.8;
 bool has_slid(PhantomType type) { return type == PhantomType::b1 || type == PhantomType::d; }
@@ -99,8 +99,9 @@ PhantomShape::PhantomShape(const PhantomParams& params) : params_(params), centr
   lateral_ = Vec3(-c, -s, 0.0);
   superior_ = Vec3::UnitZ();
   posterior_ = Vec3(-s, c, 0.0);
-  const double native_rad = params.version_rad + turned_of(params).native_rad;
-  version_rad_ = native_rad + turned_of(params).worn_rad;
+  const Turned turned = turned_of(params);
+  const double native_rad = params.version_rad + turned.native_rad;
+  version_rad_ = native_rad + turned.worn_rad;
   if (std::abs(version_rad_) > max_version_rad)
     throw Error(ErrorKind::invalid_input,
                 "phantom: a glenoid of that type and version would be turned by " +
@@ -109,10 +110,7 @@ PhantomShape::PhantomShape(const PhantomParams& params) : params_(params), centr
   vault_ = frame_of(native_rad);
   medial_in_vault_ =
       -Vec3(lateral_.dot(vault_.superior), lateral_.dot(vault_.anterior), lateral_.dot(vault_.normal));
-  const FaceFrame face = version_rad_ == native_rad ? vault_ : frame_of(version_rad_);
-  face_normal_ = face.normal;
-  face_superior_ = face.superior;
-  face_anterior_ = face.anterior;
+  face_ = version_rad_ == native_rad ? vault_ : frame_of(version_rad_);
   const double wear_mm = wear_mm_of(params.type);
   worn_centre_ = wear_mm > 0.0 ? Vec3(centre_ - wear_mm * lateral_) : centre_;
   face_radius_mm_ = wear_mm > 0.0 ? params_.head_radius_mm + params.joint_space_mm + worn_radius_excess_mm
@@ -120,7 +118,7 @@ PhantomShape::PhantomShape(const PhantomParams& params) : params_(params), centr
   if (has_slid(params.type))
     face_radius_mm_ = std::max(face_radius_mm_, params.head_radius_mm * (1.0 + slid_share / max_slid_sine) +
                                                     narrowed_share * params.joint_space_mm);
-  sphere_centre_ = worn_centre_ + face_radius_mm_ * face_normal_;
+  sphere_centre_ = worn_centre_ + face_radius_mm_ * face_.normal;
   place_head();
   if (params.type == PhantomType::b2) carve_neoglenoid();
 }
@@ -138,14 +136,14 @@ PhantomShape::FaceFrame PhantomShape::frame_of(double version_rad) const {
 
 /// Opposite the middle of the face, or slid along it: there the joint space is narrower.
 void PhantomShape::place_head() {
-  head_centre_ = worn_centre_ + (params_.joint_space_mm + params_.head_radius_mm) * face_normal_;
+  head_centre_ = worn_centre_ + (params_.joint_space_mm + params_.head_radius_mm) * face_.normal;
   if (!has_slid(params_.type)) return;
   const double from_centre_mm =
       face_radius_mm_ - params_.head_radius_mm - narrowed_share * params_.joint_space_mm;
   const double back_mm =
       (params_.type == PhantomType::b1 ? slid_share : -slid_share) * params_.head_radius_mm;
   const double out_mm = std::sqrt(from_centre_mm * from_centre_mm - back_mm * back_mm);
-  head_centre_ = sphere_centre_ - out_mm * face_normal_ - back_mm * face_anterior_;
+  head_centre_ = sphere_centre_ - out_mm * face_.normal - back_mm * face_.anterior;
 }
 
 double PhantomShape::depth_under_face_mm(const Vec3& world_mm) const {
@@ -154,7 +152,7 @@ double PhantomShape::depth_under_face_mm(const Vec3& world_mm) const {
 }
 
 double PhantomShape::posterior_mm(const Vec3& world_mm) const {
-  return -(world_mm - centre_).dot(face_anterior_);
+  return -(world_mm - centre_).dot(face_.anterior);
 }
 
 Vec3 PhantomShape::in_scapula(const Vec3& offset) const {
@@ -218,8 +216,9 @@ double PhantomShape::scapula_value(const Vec3& world_mm) const {
   if (params_.type == PhantomType::osteophytes)
     d = rounded_min(d, osteophytes_value(world_mm), rim_rounding_mm);
   double processes = processes_value(in_scapula(world_mm - centre_));
-  // Where a head has moved to an acromion or a coracoid, it has worn that.
-  if (anatomical_) processes = std::max(processes, least_gap_mm - humerus_mm(world_mm));
+  // Where a head has moved to an acromion or a coracoid, it has worn that. Farther off they do not count.
+  if (anatomical_ && processes < d + joint_rounding_mm)
+    processes = std::max(processes, least_gap_mm - humerus_mm(world_mm));
   return rounded_min(d, processes, joint_rounding_mm);
 }
 
@@ -228,7 +227,7 @@ bool PhantomShape::is_process(const Vec3& world_mm) const {
 }
 
 bool PhantomShape::is_behind_middle(const Vec3& world_mm) const {
-  return (world_mm - worn_centre_).dot(face_anterior_) < 0.0;
+  return (world_mm - worn_centre_).dot(face_.anterior) < 0.0;
 }
 
 Vec3 PhantomShape::scapula_gradient(const Vec3& world_mm) const {
@@ -289,10 +288,10 @@ double PhantomShape::anatomical_shaft_mm(const Vec3& p) {
 void PhantomShape::carve_neoglenoid() {
   Neoglenoid neo;
   neo.radius_mm = params_.head_radius_mm + params_.joint_space_mm + neoglenoid_radius_excess_mm;
-  const Vec3 ridge = centre_ - ridge_behind_middle_mm * face_anterior_ +
-                     sagitta(face_radius_mm_, ridge_behind_middle_mm) * face_normal_;
-  const Vec3 along = -turned_cos * face_anterior_ - turned_sin * face_normal_;
-  neo.normal = turned_cos * face_normal_ - turned_sin * face_anterior_;
+  const Vec3 ridge = centre_ - ridge_behind_middle_mm * face_.anterior +
+                     sagitta(face_radius_mm_, ridge_behind_middle_mm) * face_.normal;
+  const Vec3 along = -turned_cos * face_.anterior - turned_sin * face_.normal;
+  neo.normal = turned_cos * face_.normal - turned_sin * face_.anterior;
   const double half_chord = 0.5 * chord_per_width * params_.glenoid_width_mm;
   const double to_chord = std::sqrt(neo.radius_mm * neo.radius_mm - half_chord * half_chord);
   neo.sphere_centre_mm = ridge + half_chord * along + to_chord * neo.normal;
@@ -315,7 +314,7 @@ double PhantomShape::osteophytes_value(const Vec3& world_mm) const {
         -widest_below_middle * height - (0.5 - widest_below_middle) * height * down * bead_widening;
     const double t = half_width * across * bead_widening;
     const double raised = sagitta(face_radius_mm_, std::sqrt(s * s + t * t)) + bead_raised_mm;
-    return centre_ + s * face_superior_ + t * face_anterior_ + raised * face_normal_;
+    return centre_ + s * face_.superior + t * face_.anterior + raised * face_.normal;
   };
   double d = 1e3;
   for (int i = 0; i < bead_parts; ++i)
@@ -324,16 +323,16 @@ double PhantomShape::osteophytes_value(const Vec3& world_mm) const {
 }
 
 Vec3 PhantomShape::on_face(double superior_mm, double anterior_mm) const {
-  const Vec3 flat = worn_centre_ + superior_mm * face_superior_ + anterior_mm * face_anterior_;
+  const Vec3 flat = worn_centre_ + superior_mm * face_.superior + anterior_mm * face_.anterior;
   const auto height_on = [&](const Vec3& sphere_centre, double radius) {
     const Vec3 to_centre = sphere_centre - flat;
-    const double up = to_centre.dot(face_normal_);
+    const double up = to_centre.dot(face_.normal);
     return up - std::sqrt(std::max(0.0, radius * radius - (to_centre.squaredNorm() - up * up)));
   };
   double height = height_on(sphere_centre_, face_radius_mm_);
   if (neoglenoid_)
     height = std::min(height, height_on(neoglenoid_->sphere_centre_mm, neoglenoid_->radius_mm));
-  return flat + height * face_normal_;
+  return flat + height * face_.normal;
 }
 
 double PhantomShape::reach_superior_mm(double direction) const {
@@ -384,7 +383,7 @@ GroundTruth PhantomShape::truth() const {
   truth.type = params_.type;
   truth.version_rad = version_rad_;
   truth.inclination_rad = params_.inclination_rad;
-  truth.glenoid = {worn_centre_, face_normal_, face_superior_, face_anterior_};
+  truth.glenoid = {worn_centre_, face_.normal, face_.superior, face_.anterior};
   truth.articular_sphere_centre_mm = sphere_centre_;
   truth.articular_radius_mm = face_radius_mm_;
   truth.glenoid_height_mm = params_.glenoid_height_mm;
@@ -403,7 +402,7 @@ GroundTruth PhantomShape::truth() const {
 void PhantomShape::add_biconcavity(GroundTruth& truth) const {
   const auto& line = truth.landmarks.biconcavity_mm;
   const auto face_along = [&](const Vec3& anterior) -> Vec3 {
-    const Vec3 normal = face_superior_.cross(anterior).normalized();
+    const Vec3 normal = face_.superior.cross(anterior).normalized();
     return normal.dot(lateral_) < 0.0 ? Vec3(-normal) : normal;
   };
   const Vec3 native = face_along(line[0] - line[2]);
@@ -413,7 +412,7 @@ void PhantomShape::add_biconcavity(GroundTruth& truth) const {
   truth.version_rad = version_of(native, lateral_, posterior_);
   truth.inclination_rad = std::atan2(native.dot(superior_), native.dot(lateral_));
   truth.glenoid.lateral = native;
-  const Vec3 across = face_superior_.cross(native);
+  const Vec3 across = face_.superior.cross(native);
   truth.glenoid.anterior = across.dot(posterior_) < 0.0 ? across : Vec3(-across);
 }
 

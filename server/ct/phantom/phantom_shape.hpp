@@ -71,12 +71,11 @@ class PhantomShape {
   void add_biconcavity(GroundTruth& truth) const;
 
   PhantomParams params_;
-  Vec3 centre_, lateral_, superior_, posterior_;      // scapular frame
-  double version_rad_ = 0;                            // of the face as it is
-  FaceFrame vault_;                                   // of the native face, which the vault belongs to
-  Vec3 face_normal_, face_superior_, face_anterior_;  // face frame
-  Vec3 medial_in_vault_;                              // -lateral_ in (superior, anterior, normal) of vault_
-  Vec3 worn_centre_;                                  // of the face; centre_ where it is not worn
+  Vec3 centre_, lateral_, superior_, posterior_;  // scapular frame
+  double version_rad_ = 0;                        // of the face as it is
+  FaceFrame vault_, face_;  // of the native face, whose the vault is; of the face as it is
+  Vec3 medial_in_vault_;    // -lateral_ in (superior, anterior, normal) of vault_
+  Vec3 worn_centre_;        // of the face; centre_ where it is not worn
   double face_radius_mm_ = 0;
   Vec3 sphere_centre_, head_centre_;
   std::optional<Neoglenoid> neoglenoid_;
