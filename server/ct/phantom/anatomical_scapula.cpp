@@ -9,7 +9,7 @@ namespace ream::ct {
 namespace {
 
 constexpr int parts_per_span = 4;
-constexpr double far_mm = 8.0;  // beyond, a lower bound of the distance is enough
+constexpr double far_of_sweep_mm = 8.0;  // beyond, a lower bound of the distance is enough
 
 /// Catmull and Rom's curve through b and c; its ends are doubled.
 template <typename Value>
@@ -127,27 +127,53 @@ FlatSweep::FlatSweep(const std::vector<Knot>& knots, const Vec3& flat, double fl
   }
   centre_ = 0.5 * (low + high);
   radius_mm_ = 0.5 * (high - low).norm() + broadest + 1.0;
+  std::vector<Vec3> points;
+  std::vector<double> radii;
   const auto knot = [&](size_t i) -> const Knot& { return knots[std::min(i, knots.size() - 1)]; };
   for (size_t i = 0; i + 1 < knots.size(); ++i)
     for (int part = 0; part < parts_per_span; ++part) {
       const double t = static_cast<double>(part) / parts_per_span;
       const Knot &a = knot(i == 0 ? 0 : i - 1), &b = knot(i), &c = knot(i + 1), &d = knot(i + 2);
-      points_.push_back(stretched(spline<Vec3>(a.at, b.at, c.at, d.at, t)));
-      half_breadths_mm_.push_back(
+      points.push_back(stretched(spline<Vec3>(a.at, b.at, c.at, d.at, t)));
+      radii.push_back(
           spline<double>(a.half_breadth_mm, b.half_breadth_mm, c.half_breadth_mm, d.half_breadth_mm, t));
     }
-  points_.push_back(stretched(knots.back().at));
-  half_breadths_mm_.push_back(knots.back().half_breadth_mm);
+  points.push_back(stretched(knots.back().at));
+  radii.push_back(knots.back().half_breadth_mm);
+  for (size_t i = 0; i + 1 < points.size(); ++i)
+    segments_.push_back(segment_between(points[i], points[i + 1], radii[i], radii[i + 1]));
+}
+
+FlatSweep::Segment FlatSweep::segment_between(const Vec3& a, const Vec3& b, double radius_a,
+                                              double radius_b) {
+  constexpr double slack = 1e-6;  // more than rounding
+  const Vec3 along = b - a;
+  const double reach = 0.5 * along.norm() + std::max(radius_a, radius_b) + slack;
+  return {a, along, along.squaredNorm(), radius_a, radius_b - radius_a, a + 0.5 * along, reach};
+}
+
+/// As capsule() has it.
+double FlatSweep::distance_to(const Segment& s, const Vec3& p) {
+  const double t = std::clamp((p - s.from).dot(s.along) / s.squared_length, 0.0, 1.0);
+  return (p - s.from - t * s.along).norm() - (s.radius + t * s.widening);
 }
 
 double FlatSweep::value(const Vec3& p) const {
   const double beyond = (p - centre_).norm() - radius_mm_;
-  if (beyond > far_mm) return beyond;
+  if (beyond > far_of_sweep_mm) return beyond;
   const Vec3 at = stretched(p);
-  double nearest = std::numeric_limits<double>::max();
-  for (size_t i = 0; i + 1 < points_.size(); ++i)
-    nearest = std::min(
-        nearest, capsule(at, points_[i], points_[i + 1], half_breadths_mm_[i], half_breadths_mm_[i + 1]));
+  const Segment* likely = nullptr;
+  double squared_to_middle = std::numeric_limits<double>::max();
+  for (const Segment& segment : segments_) {
+    const double squared = (at - segment.middle).squaredNorm();
+    if (squared < squared_to_middle) likely = &segment, squared_to_middle = squared;
+  }
+  double nearest = distance_to(*likely, at);
+  for (const Segment& segment : segments_) {
+    const double in_reach = nearest + segment.reach;
+    if (in_reach <= 0.0 || (at - segment.middle).squaredNorm() > in_reach * in_reach) continue;
+    nearest = std::min(nearest, distance_to(segment, at));
+  }
   return nearest / flatness_;
 }
 
@@ -174,6 +200,8 @@ double AnatomicalScapula::body_value(const Vec3& p) const {
                                 falling(medial_mm, in.medial_mm, medial_reach_mm);
   return sizes_.scale * rounded_max(std::abs(mean.z() - middle) - half_thickness, in.edge_mm, rim_mm);
 }
+
+double AnatomicalScapula::far_mm() const { return sizes_.scale * far_of_sweep_mm; }
 
 double AnatomicalScapula::body_share(double depth_mm) {
   constexpr double at[] = {44.0, 62.0}, share[] = {0.0, 1.0};

@@ -32,10 +32,19 @@ class FlatSweep {
  private:
   Vec3 stretched(const Vec3& p) const { return p + (flatness_ - 1.0) * p.dot(flat_) * flat_; }
 
+  /// A capsule of the stretched curve, and a sphere that holds it.
+  struct Segment {
+    Vec3 from, along;
+    double squared_length, radius, widening;
+    Vec3 middle;
+    double reach;
+  };
+  static Segment segment_between(const Vec3& a, const Vec3& b, double radius_a, double radius_b);
+  static double distance_to(const Segment& segment, const Vec3& stretched_point);
+
   Vec3 flat_;
   double flatness_;
-  std::vector<Vec3> points_;  // stretched
-  std::vector<double> half_breadths_mm_;
+  std::vector<Segment> segments_;
   Vec3 centre_ = Vec3::Zero();  // of a sphere that holds all
   double radius_mm_ = 0.0;
 };
@@ -51,8 +60,9 @@ class AnatomicalScapula {
   double body_value(const Vec3& p) const;
   /// How much of the body at a depth under the face, mm, is that plate: 0 in the neck, 1 beyond it.
   static double body_share(double depth_mm);
-  /// Spine, acromion and coracoid.
+  /// Spine, acromion and coracoid. From far_mm() on it may be less than the distance, and may jump.
   double processes_value(const Vec3& p) const;
+  double far_mm() const;
 
  private:
   AnatomicalSizes sizes_;

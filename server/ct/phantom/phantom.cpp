@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/thread_pool.hpp"
 #include "core/units.hpp"
 #include "ct/build/bone_from_mask.hpp"
 #include "ct/phantom/phantom_shape.hpp"
@@ -21,6 +22,7 @@ constexpr double sclerotic_g_cc = 1.1, sclerotic_mm = 4.0;  // under the plate o
 /// What osteoporosis leaves: of the spongy bone, of the compact bone's density and of its thickness.
 constexpr double porotic_spongy = 0.65, porotic_compact = 0.85, porotic_thickness = 0.7;
 constexpr double max_field_voxels = 6.0e8;
+constexpr int phantom_threads = 2;
 
 struct TypeName {
   PhantomType type;
@@ -185,7 +187,8 @@ Phantom make_phantom(const PhantomParams& params) {
   volume.source = phantom_source(params);
   volume.hu.resize(volume.voxel_count());
   const double voxel_mm = params.spacing_mm.minCoeff();
-  for (int w = 0; w < volume.dims.z(); ++w)
+  parallel_for(phantom_threads, static_cast<size_t>(volume.dims.z()), [&](size_t slice) {
+    const int w = static_cast<int>(slice);
     for (int v = 0; v < volume.dims.y(); ++v)
       for (int u = 0; u < volume.dims.x(); ++u) {
         const double exact = tissue_hu(shape, sized, volume.world_of_centre({u, v, w}), voxel_mm) +
@@ -194,6 +197,7 @@ Phantom make_phantom(const PhantomParams& params) {
         volume.hu[volume.index(column, v, w)] =
             static_cast<int16_t>(std::clamp(std::floor(exact + 0.5), double{min_hu}, 3071.0));
       }
+  });
   phantom.truth.side = params.side;
   if (left) {
     mirror(phantom.truth);
@@ -218,11 +222,13 @@ TriangleMesh scapula_surface(const PhantomParams& params, double sample_mm) {
   // they are put onto it.
   const double ramp_mm = 4.0 * sample_mm;
   std::vector<uint8_t> coverage(grid.voxel_count());
-  for (size_t i = 0; i < coverage.size(); ++i) {
-    const Vec3 world = grid.world_from_grid.point(grid.centre_mm(grid.coordinates(i)));
-    const double inside = inside_share(shape.scapula_mm(left ? mirrored(world) : world), ramp_mm);
-    coverage[i] = static_cast<uint8_t>(std::lround(255.0 * inside));
-  }
+  parallel_for(phantom_threads, coverage.size() / voxel::brick_voxels, [&](size_t brick) {
+    for (size_t i = brick * voxel::brick_voxels; i < (brick + 1) * voxel::brick_voxels; ++i) {
+      const Vec3 world = grid.world_from_grid.point(grid.centre_mm(grid.coordinates(i)));
+      const double inside = inside_share(shape.scapula_mm(left ? mirrored(world) : world), ramp_mm);
+      coverage[i] = static_cast<uint8_t>(std::lround(255.0 * inside));
+    }
+  });
   TriangleMesh surface = surface::whole_surface(grid, coverage.data()).transformed(grid.world_from_grid);
   for (Vec3f& vertex : surface.vertices_mm) {
     const Vec3 world = vertex.cast<double>();

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -211,15 +212,41 @@ double PhantomShape::body_under_face_value(const Vec3& world_mm) const {
   return std::max(d, above - 0.5 * params_.glenoid_radius_mm);
 }
 
-double PhantomShape::scapula_value(const Vec3& world_mm) const {
-  double d = body_under_face_value(world_mm);
-  if (params_.type == PhantomType::osteophytes)
-    d = rounded_min(d, osteophytes_value(world_mm), rim_rounding_mm);
-  double processes = processes_value(in_scapula(world_mm - centre_));
-  // Where a head has moved to an acromion or a coracoid, it has worn that. Farther off they do not count.
-  if (anatomical_ && processes < d + joint_rounding_mm)
-    processes = std::max(processes, least_gap_mm - humerus_mm(world_mm));
-  return rounded_min(d, processes, joint_rounding_mm);
+double PhantomShape::body_with_osteophytes_value(const Vec3& world_mm) const {
+  const double body = body_under_face_value(world_mm);
+  if (params_.type != PhantomType::osteophytes) return body;
+  return rounded_min(body, osteophytes_value(world_mm), rim_rounding_mm);
+}
+
+/// Where a head has moved to an acromion or a coracoid, it has worn that. Farther off they do not count.
+double PhantomShape::processes_beside_humerus_value(const Vec3& world_mm, double body) const {
+  const double processes = processes_value(in_scapula(world_mm - centre_));
+  if (!anatomical_ || processes >= body + joint_rounding_mm) return processes;
+  return std::max(processes, least_gap_mm - humerus_mm(world_mm));
+}
+
+PhantomShape::ScapulaValue PhantomShape::scapula_value(const Vec3& world_mm) const {
+  // More than either value changes within 0.1 mm: rounded_min() returns the smaller of two that differ by
+  // more than its width.
+  constexpr double change = 0.5;
+  constexpr double apart = joint_rounding_mm + change;
+  const double body = body_with_osteophytes_value(world_mm);
+  const double processes = processes_beside_humerus_value(world_mm, body);
+  const bool without_jump = !anatomical_ || body + apart < anatomical_->far_mm() - change;
+  const MadeBy made_by = processes > body + apart && without_jump ? MadeBy::body
+                         : body > processes + apart               ? MadeBy::processes
+                                                                  : MadeBy::both;
+  return {rounded_min(body, processes, joint_rounding_mm), made_by};
+}
+
+double PhantomShape::scapula_value(const Vec3& world_mm, MadeBy made_by) const {
+  switch (made_by) {
+    case MadeBy::body: return body_with_osteophytes_value(world_mm);
+    case MadeBy::processes:
+      return processes_beside_humerus_value(world_mm, std::numeric_limits<double>::max());
+    case MadeBy::both: break;
+  }
+  return scapula_value(world_mm).value;
 }
 
 bool PhantomShape::is_process(const Vec3& world_mm) const {
@@ -230,22 +257,23 @@ bool PhantomShape::is_behind_middle(const Vec3& world_mm) const {
   return (world_mm - worn_centre_).dot(face_.anterior) < 0.0;
 }
 
-Vec3 PhantomShape::scapula_gradient(const Vec3& world_mm) const {
+Vec3 PhantomShape::scapula_gradient(const Vec3& world_mm, MadeBy made_by) const {
   constexpr double step = 0.01;
   Vec3 gradient;
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3 along = step * Vec3::Unit(axis);
-    gradient[axis] = (scapula_value(world_mm + along) - scapula_value(world_mm - along)) / (2.0 * step);
+    gradient[axis] =
+        (scapula_value(world_mm + along, made_by) - scapula_value(world_mm - along, made_by)) / (2.0 * step);
   }
   return gradient;
 }
 
 double PhantomShape::scapula_mm(const Vec3& world_mm) const {
   constexpr double near_mm = 6.0;
-  const double value = scapula_value(world_mm);
+  const auto [value, made_by] = scapula_value(world_mm);
   // Far from the surface the scale of the implicit function does not matter.
   if (std::abs(value) > near_mm) return value;
-  return value / std::max(min_gradient, scapula_gradient(world_mm).norm());
+  return value / std::max(min_gradient, scapula_gradient(world_mm, made_by).norm());
 }
 
 Vec3 PhantomShape::on_scapula(const Vec3& near_mm) const {
@@ -253,9 +281,10 @@ Vec3 PhantomShape::on_scapula(const Vec3& near_mm) const {
   constexpr double max_step_mm = 0.5;
   Vec3 p = near_mm;
   for (int i = 0; i < steps; ++i) {
-    const Vec3 gradient = scapula_gradient(p);
+    const auto [value, made_by] = scapula_value(p);
+    const Vec3 gradient = scapula_gradient(p, made_by);
     const double slope = std::max(min_gradient, gradient.norm());
-    p -= std::clamp(scapula_value(p) / slope, -max_step_mm, max_step_mm) / slope * gradient;
+    p -= std::clamp(value / slope, -max_step_mm, max_step_mm) / slope * gradient;
   }
   return p;
 }

@@ -45,8 +45,17 @@ class PhantomShape {
   GroundTruth truth() const;
 
  private:
-  double scapula_value(const Vec3& world_mm) const;
-  Vec3 scapula_gradient(const Vec3& world_mm) const;
+  /// What makes the scapula at a place and 0.1 mm around it: the other one is too far off to count.
+  enum class MadeBy { both, body, processes };
+  struct ScapulaValue {
+    double value;
+    MadeBy made_by;
+  };
+  ScapulaValue scapula_value(const Vec3& world_mm) const;
+  double scapula_value(const Vec3& world_mm, MadeBy made_by) const;
+  Vec3 scapula_gradient(const Vec3& world_mm, MadeBy made_by) const;
+  double body_with_osteophytes_value(const Vec3& world_mm) const;
+  double processes_beside_humerus_value(const Vec3& world_mm, double body) const;
   double body_value(const Vec3& offset) const;
   double body_under_face_value(const Vec3& world_mm) const;
   double processes_value(const Vec3& in_scapula) const;
