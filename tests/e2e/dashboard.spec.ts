@@ -25,9 +25,9 @@ test('shows who reams with figures and picture, what has ended with its points, 
   // Who teaches begins with it.
   await page.goto(here.server.url);
   await logIn(page, 'ines');
-  await expect(page.getByTestId('none-live')).toContainText('Nobody reams');
+  await expect(page.getByTestId('none-live')).toContainText('No active sessions');
   await expect(page.getByTestId('none-recent')).toBeVisible();
-  await expect(page.getByTestId('no-learner')).toContainText('Nobody has trained');
+  await expect(page.getByTestId('no-learner')).toContainText('No trainee has a finished session');
 
   const first = await startDemo(trainee, here.server.url);
   const tile = page.getByTestId(`tile-${first}`);

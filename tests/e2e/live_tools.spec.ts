@@ -182,6 +182,12 @@ test('in theatre there is nothing but the bone, an opaque reamer, sound and forc
   await expect(page.getByTestId('sound')).toBeVisible();
   await untilStill(page);
   await page.screenshot({ path: info.outputPath('theatre.png') });
+  // Around the wound all is covered: nowhere does the page's background show through, which is another in the dark.
+  const inLight = await bone(page);
+  await page.emulateMedia({ colorScheme: 'dark' });
+  await expect(page.locator('html')).toHaveAttribute('data-theme', 'dark');
+  expect(await changed(page, inLight)).toBe(0);
+  await page.emulateMedia({ colorScheme: 'light' });
   // A push is not given: it grows as long as it lasts, and passes what a plain one stops at.
   const pushed = async (newtons: number) => {
     await page.waitForFunction((n) => window.__ream.pushN > n, newtons, { timeout: 20_000 });

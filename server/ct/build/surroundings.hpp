@@ -21,9 +21,9 @@ TriangleMesh surroundings_of(const TriangleMesh& bone_world, const voxel::VoxelG
 TriangleMesh scapula_around(const Workup& workup, const std::vector<int16_t>& hu,
                             const std::vector<uint8_t>& labels, const voxel::VoxelGrid& grid);
 
-/// Without triangles that a reamer on the planned axis may come to, which would look as if it could not cut
-/// them: the grid alone describes what is there.
-TriangleMesh beyond_reach(const TriangleMesh& around, const case_::Plan& plan);
+/// Without triangles in the grid's box that a reamer on the planned axis may come to, which would look as if
+/// it could not cut them: the grid alone describes what is there.
+TriangleMesh beyond_reach(const TriangleMesh& around, const case_::Plan& plan, const voxel::VoxelGrid& grid);
 
 /// Writes the file of a case's folder, or removes it where nothing lies around. Throws Error io.
 void keep_surroundings(const TriangleMesh& around, case_::Side side,

@@ -26,7 +26,7 @@ void draw_picture(const case_::Case& bone_case, const TriangleMesh& surface,
   layers[1].mesh = &parts.above;
   layers[1].colour = render::cut_bone_colour;
   for (auto& layer : layers) layer.world_from_mesh = bone.grid.world_from_grid;
-  const TriangleMesh beyond = ct::beyond_reach(around, plan_of(bone_case));
+  const TriangleMesh beyond = ct::beyond_reach(around, plan_of(bone_case), bone.grid);
   if (!beyond.triangles.empty()) layers.emplace_back().mesh = &beyond;
   const Vec3 superior = bone_case.glenoid ? bone_case.glenoid->superior : Vec3::UnitZ();
   const render::Camera camera = glenoid_camera(plan_of(bone_case), superior, camera_distance_mm);

@@ -73,15 +73,22 @@ TEST(Surroundings, CoverTheSeamAlongTheGridsSides) {
 TEST(Surroundings, AreNotDrawnWhereAReamerComesTo) {
   case_::Plan plan;
   plan.axis_direction = {1, 0, 0};
-  const auto left = [&plan](double entry_x, double beside) {
+  voxel::VoxelGrid grid;
+  grid.dims = {16, 16, 16};
+  grid.spacing_mm = Vec3::Constant(0.5);
+  grid.world_from_grid.translation_mm = {-2, -2, -2};
+  const auto left = [&](double entry_x, double beside) {
     plan.entry_mm = {entry_x, beside, 0};
-    return beyond_reach(strip(), plan).triangles.size();
+    return beyond_reach(strip(), plan, grid).triangles.size();
   };
   EXPECT_EQ(left(0, 0), 0u);    // in the bone's face
   EXPECT_EQ(left(20, 0), 0u);   // before it
   EXPECT_EQ(left(-20, 0), 4u);  // far under it
   EXPECT_EQ(left(-10, 0), 3u);  // the first triangle ends 12 mm under it
   EXPECT_EQ(left(0, 40), 4u);   // beside it
+  // Beyond the grid's sides nothing is ever cut: what lies there is drawn up to them.
+  grid.world_from_grid.translation_mm.x() = 1.5;
+  EXPECT_EQ(left(0, 0), 2u);
 }
 
 TEST(Surroundings, AreKeptReplacedAndRemoved) {

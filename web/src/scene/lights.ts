@@ -1,21 +1,53 @@
-import { DirectionalLight, HemisphereLight, Vector3, type PerspectiveCamera, type Scene } from 'three';
+import { Color, DirectionalLight, HemisphereLight, Vector3, type PerspectiveCamera, type Scene } from 'three';
+
+/** A light that goes with the viewer. */
+interface ViewersLight {
+  colour: number;
+  intensity: number;
+  /** Where it comes from: to the viewer's right, up, and back towards the viewer. */
+  from: readonly [right: number, up: number, back: number];
+}
+const lamp: ViewersLight = { colour: 0xfff6e8, intensity: 2.5, from: [-0.55, 0.9, 1] };
+const fill: ViewersLight = { colour: 0xe4edf6, intensity: 0.9, from: [1, -0.1, 0.8] };
+const allAround = { above: 0xffffff, below: 0xa39a90, intensity: 0.9 };
+
+const directionOf = ({ from }: ViewersLight, right: Vector3, up: Vector3, back: Vector3): Vector3 =>
+  new Vector3().addScaledVector(right, from[0]).addScaledVector(up, from[1]).addScaledVector(back, from[2]);
 
 /**
  * Light as in an operating room: a strong lamp over the viewer's left shoulder, raking enough to model a shallow
  * bowl, a weak fill from the right and a little from all around. The lamp goes with the viewer.
  */
 export class OperatingLights {
-  private readonly lamp = new DirectionalLight(0xfff6e8, 2.5);
-  private readonly fill = new DirectionalLight(0xe4edf6, 0.9);
+  private readonly lights = [lamp, fill].map((of) => ({ of, light: new DirectionalLight(of.colour, of.intensity) }));
 
   constructor(scene: Scene) {
-    scene.add(new HemisphereLight(0xffffff, 0xa39a90, 0.9), this.lamp, this.lamp.target, this.fill, this.fill.target);
+    scene.add(new HemisphereLight(allAround.above, allAround.below, allAround.intensity));
+    for (const { light } of this.lights) scene.add(light, light.target);
   }
 
   follow(camera: PerspectiveCamera): void {
     const column = (i: number) => new Vector3().setFromMatrixColumn(camera.matrixWorld, i).normalize();
     const [right, up, back] = [column(0), column(1), column(2)] as const;
-    this.lamp.position.copy(right).multiplyScalar(-0.55).addScaledVector(up, 0.9).addScaledVector(back, 1);
-    this.fill.position.copy(right).addScaledVector(up, -0.1).addScaledVector(back, 0.8);
+    for (const { of, light } of this.lights) light.position.copy(directionOf(of, right, up, back));
   }
+}
+
+/** What a dull white surface shows to a viewer who stands there, by its normal (unit): for what is lit once and for all. */
+export function operatingLightFor(towardsEye: Vector3, viewersUp: Vector3): (normal: Vector3) => Color {
+  const right = new Vector3().crossVectors(viewersUp, towardsEye).normalize();
+  const up = new Vector3().crossVectors(towardsEye, right);
+  const lights = [lamp, fill].map((of) => ({
+    colour: new Color(of.colour).multiplyScalar(of.intensity / Math.PI),
+    from: directionOf(of, right, up, towardsEye).normalize(),
+  }));
+  const [below, above] = [allAround.below, allAround.above].map((colour) =>
+    new Color(colour).multiplyScalar(allAround.intensity / Math.PI),
+  ) as [Color, Color];
+  return (normal) => {
+    // As three.js has it: its sky is where y is.
+    const seen = below.clone().lerp(above, 0.5 + 0.5 * normal.y);
+    for (const { colour, from } of lights) seen.add(colour.clone().multiplyScalar(Math.max(0, normal.dot(from))));
+    return seen;
+  };
 }

@@ -125,11 +125,11 @@ export class OrbitCamera {
     this.controls.update();
   }
 
-  /** From here the field fits the narrower side of the picture. */
-  fittingDistance(): number {
+  /** From here the field, or one of another radius, fits the narrower side of the picture. */
+  fittingDistance(fieldRadiusMm = this.fieldRadiusMm): number {
     const halfVertical = (this.camera.fov * Math.PI) / 360;
     const halfHorizontal = Math.atan(Math.tan(halfVertical) * this.camera.aspect);
-    return this.fieldRadiusMm / Math.sin(Math.min(halfVertical, halfHorizontal));
+    return fieldRadiusMm / Math.sin(Math.min(halfVertical, halfHorizontal));
   }
 
   private onKey(event: KeyboardEvent): void {

@@ -16,13 +16,14 @@ import { type Beside, PlanFrame, type Ray } from '../practice/plan_frame';
 import type { SteeredView } from '../practice/pointer_hand';
 import type { ToolAction } from '../state/tool_action';
 import { plainView, type ViewChoices } from '../state/view_settings';
-import type { Hello, MeshDelta, Pose, ToolMesh } from '../wire/messages';
+import { type Hello, isTwoPlates, type MeshDelta, type Pose, type ToolMesh } from '../wire/messages';
 import type { Surface } from '../wire/ply';
 import { AimView } from './aim_view';
 import { BoneView, type BoneReplacement } from './bone_view';
 import { OrbitCamera, type ViewName } from './orbit_camera';
 import { watchContext } from './context_watch';
 import { planeThroughAxis, sectionPlanes } from './cut_planes';
+import { OperativeField } from './operative_field';
 import { FrameRequest } from './frame_request';
 import { Headset, type Standpoint } from './headset';
 import { OperatingLights } from './lights';
@@ -35,6 +36,8 @@ import { ToolView } from './tool_view';
 
 /** Beyond this the eye gains little and a tablet loses much. */
 const pixelRatioMax = 2;
+/** Half of what is seen in theatre: the wound with its edges. */
+const theatreFieldMm = 54;
 /** A picture that was not drawn for a while does not make up for it in one step. */
 const longestStepS = 0.1;
 
@@ -51,6 +54,7 @@ export class BoneScene implements SteeredView {
   private readonly scene = new Scene();
   private readonly bone = new BoneView(() => this.invalidate());
   private readonly surroundings = new SurroundingsView();
+  private readonly field = new OperativeField();
   private readonly tool = new ToolView(window.matchMedia('(prefers-reduced-motion: reduce)'));
   private toolMoves = false;
   private readonly aim = new AimView();
@@ -60,7 +64,7 @@ export class BoneScene implements SteeredView {
   /** Makes what lies behind the nearest bone unseen where the bone is seen through. */
   private readonly depthOnly = new MeshBasicMaterial({ colorWrite: false });
   private choices: ViewChoices = plainView;
-  private opaqueTool = false;
+  private inTheatre = false;
   private plan: PlanFrame | null = null;
   private toolPose: Pose | null = null;
   private framedCase: string | null = null;
@@ -92,7 +96,7 @@ export class BoneScene implements SteeredView {
       () => this.draw(),
       () => this.resize(),
     );
-    this.extras.add(this.surroundings.group);
+    this.extras.add(this.surroundings.group, this.field.group);
     this.scene.add(this.bone.group, this.tool.group, this.aim.group, this.extras, this.headset.room);
     // After the renderer's own listeners, which make what is drawn with anew.
     this.lost = watchContext(this.canvas, () => this.resize()).lost;
@@ -121,6 +125,7 @@ export class BoneScene implements SteeredView {
     this.headset.dispose();
     this.bone.dispose();
     this.surroundings.dispose();
+    this.field.dispose();
     this.tool.dispose();
     this.renderer.dispose();
     this.renderer.forceContextLoss();
@@ -163,7 +168,8 @@ export class BoneScene implements SteeredView {
     this.orbit.setPlan(hello);
     this.plan = new PlanFrame(hello);
     this.surgeon.setPlan(this.plan);
-    this.surroundings.setPlan(this.plan);
+    this.surroundings.begin(hello);
+    this.field.setPlan(isTwoPlates(hello) ? null : this.plan);
     if (this.framedCase !== hello.caseId) {
       this.framedCase = hello.caseId;
       this.orbit.look('plan');
@@ -222,10 +228,10 @@ export class BoneScene implements SteeredView {
   setView(choices: ViewChoices, theatre: boolean): void {
     this.choices = choices;
     this.toolQuality.choose(choices.toolDrawing);
-    this.opaqueTool = theatre;
+    this.inTheatre = theatre;
     this.aim.setWanted(!theatre);
     this.bone.paint.setWanted(choices.boneKinds);
-    this.surgeon.follow(choices.camera === 'trainee');
+    this.surgeon.follow(choices.camera === 'trainee', theatre ? theatreFieldMm : undefined);
     this.invalidate();
   }
 
@@ -280,7 +286,8 @@ export class BoneScene implements SteeredView {
     const cuts = this.cuts(camera);
     this.bone.setLook(seenThrough ? this.choices.opacity : 1, cuts);
     this.surroundings.setLook(seenThrough, cuts);
-    const look = this.opaqueTool ? 'steel' : seenThrough ? 'throughBone' : 'glass';
+    this.field.setShown(this.inTheatre, this.toolQuality.full.peek());
+    const look = this.inTheatre ? 'steel' : seenThrough ? 'throughBone' : 'glass';
     this.tool.setLook(look, this.toolQuality.full.peek(), cuts.length === 0);
     this.toolMoves = this.tool.step(seconds);
     if (seenThrough) this.drawSeenThrough(cuts, camera);

@@ -1,6 +1,7 @@
-import { Group, Mesh, type Plane, Vector3 } from 'three';
+import { Box3, Group, Matrix4, Mesh, type Plane, Quaternion, Vector3 } from 'three';
 
-import type { PlanFrame } from '../practice/plan_frame';
+import { PlanFrame } from '../practice/plan_frame';
+import type { Hello } from '../wire/messages';
 import type { Surface } from '../wire/ply';
 import { boneMaterial, lookOfBone } from './bone_material';
 import { surfaceGeometry } from './surface_geometry';
@@ -18,7 +19,7 @@ export class SurroundingsView {
   private readonly material = boneMaterial();
   private mesh: Mesh | null = null;
   private surface: Surface | null = null;
-  private plan: PlanFrame | null = null;
+  private hello: Hello | null = null;
 
   /** Frame of the bone at rest, mm; null: nothing. */
   show(surface: Surface | null): void {
@@ -26,8 +27,8 @@ export class SurroundingsView {
     this.draw();
   }
 
-  setPlan(plan: PlanFrame): void {
-    this.plan = plan;
+  begin(hello: Hello): void {
+    this.hello = hello;
     this.draw();
   }
 
@@ -43,26 +44,36 @@ export class SurroundingsView {
   }
 
   private draw(): void {
-    const { surface, plan } = this;
+    const { surface, hello } = this;
     if (this.mesh !== null) {
       this.mesh.removeFromParent();
       this.mesh.geometry.dispose();
       this.mesh = null;
     }
-    if (surface === null || plan === null) return;
-    this.mesh = new Mesh(surfaceGeometry(surface, beyondReach(surface, plan.entry, plan.axis)), this.material);
+    if (surface === null || hello === null) return;
+    this.mesh = new Mesh(surfaceGeometry(surface, beyondReach(surface, hello)), this.material);
     this.group.add(this.mesh);
   }
 }
 
-/** Triangles that do not lie with all corners where a reamer on that axis may come. */
-export function beyondReach({ positions, indices }: Surface, entry: Vector3, axis: Vector3): Uint32Array<ArrayBuffer> {
-  const from = new Vector3();
+type GridAndPlan = Pick<Hello, 'axisEntryMm' | 'axisDirection' | 'gridDims' | 'voxelSpacingMm' | 'worldFromGrid'>;
+
+/** Triangles that do not lie with all corners in the streamed bone's box where a reamer on the planned axis may come. */
+export function beyondReach({ positions, indices }: Surface, of: GridAndPlan): Uint32Array<ArrayBuffer> {
+  const { entry, axis } = new PlanFrame(of);
+  const { translationMm, rotationXyzw } = of.worldFromGrid;
+  const gridFromWorld = new Matrix4()
+    .compose(new Vector3(...translationMm), new Quaternion(...rotationXyzw), new Vector3(1, 1, 1))
+    .invert();
+  const box = new Box3(new Vector3(), new Vector3(...of.gridDims).multiply(new Vector3(...of.voxelSpacingMm)));
+  const [at, from] = [new Vector3(), new Vector3()];
   const inReach = new Uint8Array(positions.length / 3);
   for (let i = 0; i < inReach.length; ++i) {
-    from.fromArray(positions, 3 * i).sub(entry);
-    const alongMm = from.dot(axis);
-    inReach[i] = alongMm < reamersDepthMm && from.addScaledVector(axis, -alongMm).length() < reamersReachMm ? 1 : 0;
+    from.fromArray(positions, 3 * i);
+    const inBox = box.containsPoint(at.copy(from).applyMatrix4(gridFromWorld));
+    const alongMm = from.sub(entry).dot(axis);
+    const besideMm = from.addScaledVector(axis, -alongMm).length();
+    inReach[i] = inBox && alongMm < reamersDepthMm && besideMm < reamersReachMm ? 1 : 0;
   }
   const left: number[] = [];
   for (let i = 0; i < indices.length; i += 3) {

@@ -1,5 +1,6 @@
 import { effect } from '@preact/signals';
 
+import { isTwoPlates } from '../wire/messages';
 import type { Surface } from '../wire/ply';
 import type { Store } from './store';
 
@@ -15,7 +16,7 @@ export interface SurroundingsPicture {
 }
 
 /**
- * Fetches what lies around the bone of every case that is shown, while the person may read cases and the picture wants it.
+ * Fetches what lies around the bone of every shoulder that is shown, while the person may read cases and the picture wants it.
  * Without an answer the picture shows the bone alone, as it does where there is nothing around it.
  */
 export class Surroundings {
@@ -32,7 +33,7 @@ export class Surroundings {
     let shown = '';
     this.stop = effect(() => {
       const hello = store.hello.value;
-      const id = wanted() ? (hello?.caseId ?? '') : '';
+      const id = hello !== null && wanted() && !isTwoPlates(hello) ? hello.caseId : '';
       if (id === shown) return;
       shown = id;
       picture.showSurroundings(null);

@@ -3,7 +3,7 @@ export const dashboardText = {
   liveNow: 'Under way',
   liveCount: (count: number) => (count === 1 ? '1 session' : `${count} sessions`),
   loading: 'Loading…',
-  noneLive: 'Nobody reams at the moment. A session that is started appears here by itself.',
+  noneLive: 'No active sessions. One that is started appears here by itself.',
   startOne: 'Start one in the live view',
   noUpdates: (clock: string) => `No updates since ${clock}. What is shown is not live; the page tries again by itself.`,
   neverLoaded: 'The page tries again by itself.',
@@ -58,7 +58,7 @@ export const dashboardText = {
   ofWhom: 'Trainee',
   learnerSessions: (name: string, count: number) => `${name} (${count})`,
   noLearner:
-    'Nobody has trained under a name or a study’s code yet. Operators add trainees under Users; whoever logs in and practises appears here.',
+    'No trainee has a finished session yet. Operators add trainees under Users. Trainees who practise appear here.',
   noOwnSessions:
     'You have no session that counts yet. Practise in the live view; your course of learning appears here.',
   allTogether:

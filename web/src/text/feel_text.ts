@@ -56,7 +56,7 @@ export const feelText = {
   again: 'Compute it again',
   computing: 'Computing…',
   csv: 'Answers of all trials (CSV)',
-  nobody: 'Nobody has answered yet.',
+  nobody: 'No answers yet.',
   answered: (participants: number) =>
     participants === 1 ? 'One participant has answered.' : `${participants} participants have answered.`,
   columns: {

@@ -85,7 +85,7 @@ export const studyText = {
   raters: 'Raters',
   ratersHint:
     'Instructors rate replays without knowing whose they are. Until the study is closed, they see the study’s sessions in their rating queue only.',
-  noRaters: 'Nobody rates yet.',
+  noRaters: 'No raters yet.',
   rater: 'Rater',
   ratedColumn: 'Rated',
   ratedOf: (done: number, all: number) => `${done} of ${all}`,
@@ -122,7 +122,7 @@ export const studyText = {
   closedHint: 'The study is closed; nothing can be added.',
 
   participants: 'Participants',
-  noParticipants: 'Nobody takes part yet.',
+  noParticipants: 'No participants yet.',
   code: 'Code',
   person: 'Person',
   answered: 'Answers',

@@ -44,6 +44,9 @@ export interface Hello {
   durationTicks: number;
 }
 
+/** Whether it is of two plates for a study of feel: no shoulder. */
+export const isTwoPlates = ({ caseId }: Pick<Hello, 'caseId'>): boolean => caseId.startsWith('two-plates-');
+
 /** The surface of one block; no vertices means that the block is empty now. */
 export interface BlockSurface {
   /** x + blocksX * (y + blocksY * z). */

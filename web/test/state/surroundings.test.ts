@@ -67,6 +67,12 @@ describe('what lies around the bone', () => {
     expect(shown.every((of) => of === null)).toBe(true);
   });
 
+  it('is not asked for of plates of a study of feel', () => {
+    const { source, open } = watched();
+    open('two-plates-0a1b2c3d');
+    expect(source.asked).toEqual([]);
+  });
+
   it('is left out where there is none, and where it is not wanted', async () => {
     const { source, shown, wanted, surroundings, open } = watched();
     open('a');

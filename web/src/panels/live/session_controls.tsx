@@ -19,7 +19,7 @@ interface Parts {
   practiceStore: PracticeStore;
 }
 
-/** Pausing the watched session, and beginning it anew on intact bone. */
+/** Pausing the watched session, and starting again on intact bone. */
 export function SessionControls({ store, watcher, practice, practiceStore }: Parts) {
   const confirming = useSignal(false);
   const button = useFocusAfter<HTMLButtonElement>(confirming.value);
