@@ -87,11 +87,17 @@ test('cuts the bone along the reamer and along the planes of the body, and remem
     .poll(async () => (await readout(page)).triangles, { timeout: 30_000 })
     .toBeGreaterThan(triangles + 30_000);
   await page.screenshot({ path: info.outputPath('full.png') });
+  // Shadows: much of the picture is another.
+  await untilStill(page);
+  const full = await bone(page);
+  await drawing.selectOption('fine');
+  await expect.poll(() => changed(page, full)).toBeGreaterThan(3000);
+  await page.screenshot({ path: info.outputPath('fine.png') });
 
   await page.reload();
   await untilLive(page);
   await page.getByTestId('sections').click();
-  await expect(drawing).toHaveValue('full');
+  await expect(drawing).toHaveValue('fine');
   await expect(page.getByTestId('section-axial')).toBeChecked();
   await expect(page.getByTestId('section-axial-offset')).toHaveValue('5');
   await expect(page.getByTestId('see-through')).toHaveAttribute('aria-pressed', 'false');

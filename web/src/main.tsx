@@ -69,7 +69,7 @@ function main(root: HTMLElement): void {
   });
   showReamer(store, scene);
   const liveCase = new LiveCase(store, () => identity.may.value.readCases, window.location.origin);
-  const seesSurroundings = () => identity.may.value.readCases && scene.toolQuality.full.value;
+  const seesSurroundings = () => identity.may.value.readCases && scene.quality.full.value;
   new Surroundings(store, scene, new MeshLoader(), seesSurroundings, window.location.origin);
   const alarms = new Alarms(store);
   const sound = new Sound(store, async () => (await import('./sound/sound_output')).SoundOutput.open());

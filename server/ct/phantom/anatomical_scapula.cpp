@@ -9,7 +9,6 @@ namespace ream::ct {
 namespace {
 
 constexpr int parts_per_span = 4;
-constexpr double far_of_sweep_mm = 8.0;  // beyond, a lower bound of the distance is enough
 
 /// Catmull and Rom's curve through b and c; its ends are doubled.
 template <typename Value>
@@ -72,6 +71,11 @@ double falling(double most, double distance, double reach) {
   return most / (1.0 + share * share);
 }
 
+/// In the mean scapula's mm; what is joined there is less than its parts by up to this.
+double far_of_sweep_mm(const AnatomicalSizes& s) {
+  return AnatomicalScapula::far_mm / s.scale + joint_rounding_mm;
+}
+
 FlatSweep acromion_of(const AnatomicalSizes& s) {
   const auto at = [&](double x, double y, double z, double share) -> Vec3 {
     return {x + share * s.acromion_lateral_mm, y + share * s.acromion_superior_mm, z};
@@ -82,17 +86,17 @@ FlatSweep acromion_of(const AnatomicalSizes& s) {
                     {at(20.5, 36.5, 11, 1.0), 12.0},
                     {at(21.5, 37.3, 4, 1.0), 10.0},
                     {at(22, 37.5, 0.5, 1.0), 6.5}},
-                   {0.05, 0.97, 0.23}, 2.9);
+                   {0.05, 0.97, 0.23}, 2.9, far_of_sweep_mm(s));
 }
 
 /// The crest of the spine, which overhangs its plate above and below.
-FlatSweep crest_of_spine() {
+FlatSweep crest_of_spine(const AnatomicalSizes& s) {
   return FlatSweep({{{-100, 0.4, 3.0}, 3.5},
                     {{-85, 2.4, 7}, 6.0},
                     {{-64, 5.3, 11.5}, 7.0},
                     {{-45, 8, 14.5}, 5.5},
                     {{-34, 9.5, 17}, 4.0}},
-                   {-0.2, 0.0, 1.0}, 1.8);
+                   {-0.2, 0.0, 1.0}, 1.8, far_of_sweep_mm(s));
 }
 
 FlatSweep coracoid_of(const AnatomicalSizes& s) {
@@ -103,7 +107,7 @@ FlatSweep coracoid_of(const AnatomicalSizes& s) {
                     {at(-5, 33, -21, 0.3), 7.3},
                     {at(3, 30.5, -27, 0.7), 7.3},
                     {at(11.5, 25.5, -30.5, 1.0), 5.6}},
-                   {0.33, 0.90, -0.25}, 1.85);
+                   {0.33, 0.90, -0.25}, 1.85, far_of_sweep_mm(s));
 }
 
 double triangle_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -116,8 +120,8 @@ double triangle_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
 
 }  // namespace
 
-FlatSweep::FlatSweep(const std::vector<Knot>& knots, const Vec3& flat, double flatness)
-    : flat_(flat.normalized()), flatness_(flatness) {
+FlatSweep::FlatSweep(const std::vector<Knot>& knots, const Vec3& flat, double flatness, double far_mm)
+    : flat_(flat.normalized()), flatness_(flatness), far_mm_(far_mm) {
   Vec3 low = knots.front().at, high = low;
   double broadest = 0.0;
   for (const Knot& knot : knots) {
@@ -159,10 +163,11 @@ double FlatSweep::distance_to(const Segment& s, const Vec3& p) {
 }
 
 double FlatSweep::value(const Vec3& p) const {
-  const double beyond = (p - centre_).norm() - radius_mm_;
-  if (beyond > far_of_sweep_mm) return beyond;
+  // Across the plate the value grows by only 1 / flatness of the distance.
+  const double at_least = ((p - centre_).norm() - radius_mm_) / flatness_;
+  if (at_least > far_mm_) return at_least;
   const Vec3 at = stretched(p);
-  const Segment* likely = nullptr;
+  const Segment* likely = &segments_.front();
   double squared_to_middle = std::numeric_limits<double>::max();
   for (const Segment& segment : segments_) {
     const double squared = (at - segment.middle).squaredNorm();
@@ -188,7 +193,10 @@ ProcessBases process_bases(const Vec3& p) {
 }
 
 AnatomicalScapula::AnatomicalScapula(const AnatomicalSizes& sizes)
-    : sizes_(sizes), crest_(crest_of_spine()), acromion_(acromion_of(sizes)), coracoid_(coracoid_of(sizes)) {}
+    : sizes_(sizes),
+      crest_(crest_of_spine(sizes)),
+      acromion_(acromion_of(sizes)),
+      coracoid_(coracoid_of(sizes)) {}
 
 double AnatomicalScapula::body_value(const Vec3& p) const {
   const Vec3 mean = p / sizes_.scale;
@@ -200,8 +208,6 @@ double AnatomicalScapula::body_value(const Vec3& p) const {
                                 falling(medial_mm, in.medial_mm, medial_reach_mm);
   return sizes_.scale * rounded_max(std::abs(mean.z() - middle) - half_thickness, in.edge_mm, rim_mm);
 }
-
-double AnatomicalScapula::far_mm() const { return sizes_.scale * far_of_sweep_mm; }
 
 double AnatomicalScapula::body_share(double depth_mm) {
   constexpr double at[] = {44.0, 62.0}, share[] = {0.0, 1.0};

@@ -24,7 +24,8 @@ class FlatSweep {
     double half_breadth_mm;  ///< half of its section across
   };
   /// `flat` is the direction (any length) in which the section is `flatness` times thinner than across.
-  FlatSweep(const std::vector<Knot>& knots, const Vec3& flat, double flatness);
+  /// Values over `far_mm` need only be over it.
+  FlatSweep(const std::vector<Knot>& knots, const Vec3& flat, double flatness, double far_mm);
 
   /// Negative within; about mm near the surface, too small by up to `flatness` along its edges.
   double value(const Vec3& p) const;
@@ -43,7 +44,7 @@ class FlatSweep {
   static double distance_to(const Segment& segment, const Vec3& stretched_point);
 
   Vec3 flat_;
-  double flatness_;
+  double flatness_, far_mm_;
   std::vector<Segment> segments_;
   Vec3 centre_ = Vec3::Zero();  // of a sphere that holds all
   double radius_mm_ = 0.0;
@@ -60,9 +61,9 @@ class AnatomicalScapula {
   double body_value(const Vec3& p) const;
   /// How much of the body at a depth under the face, mm, is that plate: 0 in the neck, 1 beyond it.
   static double body_share(double depth_mm);
-  /// Spine, acromion and coracoid. From far_mm() on it may be less than the distance, and may jump.
+  /// Spine, acromion and coracoid; over `far_mm` it may jump.
   double processes_value(const Vec3& p) const;
-  double far_mm() const;
+  static constexpr double far_mm = 12.0;
 
  private:
   AnatomicalSizes sizes_;

@@ -226,16 +226,14 @@ double PhantomShape::processes_beside_humerus_value(const Vec3& world_mm, double
 }
 
 PhantomShape::ScapulaValue PhantomShape::scapula_value(const Vec3& world_mm) const {
-  // More than either value changes within 0.1 mm: rounded_min() returns the smaller of two that differ by
-  // more than its width.
-  constexpr double change = 0.5;
-  constexpr double apart = joint_rounding_mm + change;
+  // rounded_min() returns the smaller of two that differ by more than its width; within a step of the
+  // gradient, 0.01 mm, neither changes by so much more.
+  constexpr double apart = joint_rounding_mm + 0.5;
   const double body = body_with_osteophytes_value(world_mm);
   const double processes = processes_beside_humerus_value(world_mm, body);
-  const bool without_jump = !anatomical_ || body + apart < anatomical_->far_mm() - change;
-  const MadeBy made_by = processes > body + apart && without_jump ? MadeBy::body
-                         : body > processes + apart               ? MadeBy::processes
-                                                                  : MadeBy::both;
+  const MadeBy made_by = processes > body + apart   ? MadeBy::body
+                         : body > processes + apart ? MadeBy::processes
+                                                    : MadeBy::both;
   return {rounded_min(body, processes, joint_rounding_mm), made_by};
 }
 
@@ -270,6 +268,7 @@ Vec3 PhantomShape::scapula_gradient(const Vec3& world_mm, MadeBy made_by) const 
 
 double PhantomShape::scapula_mm(const Vec3& world_mm) const {
   constexpr double near_mm = 6.0;
+  static_assert(near_mm + joint_rounding_mm + 1.0 < AnatomicalScapula::far_mm);  // nothing jumps there
   const auto [value, made_by] = scapula_value(world_mm);
   // Far from the surface the scale of the implicit function does not matter.
   if (std::abs(value) > near_mm) return value;

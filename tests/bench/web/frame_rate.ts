@@ -32,26 +32,35 @@ interface View {
   smooth: boolean;
 }
 
+/** As the page draws by itself, and at its two higher levels. */
+const drawings = { ours: 'automatic', full: 'full', fine: 'fine' } as const;
+type Drawing = keyof typeof drawings;
+
 /** Both pages draw the same bone and reamer from the same place, with the same edges, in turns, while its session goes on. */
 export async function frameRates(
   browser: Browser,
   liveUrl: string,
   bare: BareServer,
-): Promise<{ ours: FrameRate; bare: FrameRate }> {
+): Promise<Record<Drawing | 'bare', FrameRate>> {
   const clock = await ProcessorTime.of(browser);
-  const ours: FrameRate[] = [];
+  const rates: Record<Drawing, FrameRate[]> = { ours: [], full: [], fine: [] };
   const others: FrameRate[] = [];
   for (let turn = 0; turn < turns; ++turn) {
     const visit = await LiveVisit.begin(browser, liveUrl);
     await visit.seeAll();
     const view = await viewOf(visit.page);
-    const triangles = await visit.page.evaluate(() => window.__ream.triangles);
-    ours.push(await timed(clock, triangles, (seconds) => visit.turn(seconds)));
+    for (const drawing of Object.keys(drawings) as Drawing[]) {
+      await visit.draw(drawings[drawing]);
+      const triangles = await visit.page.evaluate(() => window.__ream.triangles);
+      const rate = await timed(clock, triangles, (seconds) => visit.turn(seconds));
+      rates[drawing].push(rate);
+      log(`${drawing}: pictures a second: ${rounded(rate)}`);
+    }
     await visit.end();
     others.push(await turnBare(browser, clock, `${bare.url}${view.smooth ? '#smooth' : ''}`, view));
-    log(`pictures a second: ${rounded(ours.at(-1))}, of the bare page ${rounded(others.at(-1))}`);
+    log(`the bare page: pictures a second: ${rounded(others.at(-1))}`);
   }
-  return { ours: medians(ours), bare: medians(others) };
+  return { ours: medians(rates.ours), full: medians(rates.full), fine: medians(rates.fine), bare: medians(others) };
 }
 
 async function viewOf(page: Page): Promise<View> {

@@ -83,6 +83,13 @@ export class LiveVisit {
     });
   }
 
+  /** How much is drawn from here on. */
+  async draw(drawing: string): Promise<void> {
+    await this.page.getByTestId('sections').click();
+    await this.page.getByTestId('tool-drawing').selectOption(drawing);
+    await this.page.getByTestId('sections').click();
+  }
+
   /** Turns with a key, pressed at each of the browser's animation frames. */
   turn(seconds: number): Promise<Turned> {
     return this.page.evaluate(

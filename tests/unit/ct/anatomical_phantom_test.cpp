@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <random>
 #include <string>
 
 #include "case/measures.hpp"
@@ -318,6 +319,32 @@ TEST(AnatomicalPhantom, PeoplesScapulaeAreSegmentedApartFromTheirHumerus) {
   }
   std::printf("scapulae of %d people: least Dice %.4f, at most %zu voxels taken for the other bone\n",
               static_cast<int>(count), least, most_wrong);
+}
+
+/// Along lines through all of it: what jumped would be steep for a gradient, and stand in the air as bone.
+TEST(AnatomicalPhantom, ProcessesAreContinuousAsFarAsTheyCount) {
+  std::mt19937_64 random(20261127);
+  std::uniform_real_distribution<double> even(-1.0, 1.0);
+  for (const double scale : {0.8, 1.0, 1.25}) {
+    AnatomicalSizes sizes;
+    sizes.scale = scale;
+    const AnatomicalScapula scapula(sizes);
+    double steepest = 0.0;
+    for (int line = 0; line < 300; ++line) {
+      constexpr double step_mm = 0.02;
+      const Vec3 through(-30.0 + 60.0 * even(random), 10.0 + 60.0 * even(random), 50.0 * even(random));
+      const Vec3 along = Vec3(even(random), even(random), even(random)).normalized();
+      double last = scapula.processes_value(through - 60.0 * along);
+      for (double at = -60.0 + step_mm; at < 60.0; at += step_mm) {
+        const double value = scapula.processes_value(through + at * along);
+        if (std::min(value, last) < AnatomicalScapula::far_mm)
+          steepest = std::max(steepest, std::abs(value - last) / step_mm);
+        last = value;
+      }
+    }
+    EXPECT_LT(steepest, 1.3) << "scale " << scale;
+    EXPECT_GT(steepest, 0.8);
+  }
 }
 
 }  // namespace

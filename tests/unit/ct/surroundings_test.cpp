@@ -89,6 +89,12 @@ TEST(Surroundings, AreNotDrawnWhereAReamerComesTo) {
   // Beyond the grid's sides nothing is ever cut: what lies there is drawn up to them.
   grid.world_from_grid.translation_mm.x() = 1.5;
   EXPECT_EQ(left(0, 0), 2u);
+  // One that lies turned: its y runs against the world's x, from 4.5 to 0.5.
+  grid.dims = {16, 4, 16};
+  grid.spacing_mm = Vec3::Constant(1.0);
+  grid.world_from_grid.rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  grid.world_from_grid.translation_mm = {4.5, -2, -8};
+  EXPECT_EQ(left(0, 0), 1u);
 }
 
 TEST(Surroundings, AreKeptReplacedAndRemoved) {

@@ -20,6 +20,7 @@ if (!gl_FrontFacing) {
 /** The bone's surface from outside, ivory; from inside a section. */
 export function boneMaterial(): MeshStandardMaterial {
   const material = new MeshStandardMaterial({ color: wholeBoneColour, roughness: 0.72, metalness: 0 });
+  material.clipShadows = true;
   material.onBeforeCompile = (shader) => {
     shader.fragmentShader = shader.fragmentShader.replace('#include <dithering_fragment>', paintInside);
   };

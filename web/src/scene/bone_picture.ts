@@ -14,6 +14,7 @@ import type { BlockSurface, Hello } from '../wire/messages';
 import { BlockLayout } from './block_layout';
 import { marksAttribute } from './cut_bone';
 import { RegionMesh } from './region_mesh';
+import { shadowed } from './shadows';
 
 /** What did not change for so long has come to rest. */
 const settlesAfterMs = 1500;
@@ -69,7 +70,7 @@ export class BonePicture {
     const empty = surface.indices.length === 0;
     if (shown !== undefined || !empty) this.unsettled.set(region, nowMs);
     if (empty) return;
-    const mesh = new Mesh(this.geometry(surface), this.material);
+    const mesh = shadowed(new Mesh(this.geometry(surface), this.material));
     mesh.matrixAutoUpdate = false;
     mesh.matrix.copy(this.layout.gridFromBlockSteps(block));
     this.group.add(mesh);

@@ -11,6 +11,16 @@ const lamp: ViewersLight = { colour: 0xfff6e8, intensity: 2.5, from: [-0.55, 0.9
 const fill: ViewersLight = { colour: 0xe4edf6, intensity: 0.9, from: [1, -0.1, 0.8] };
 const allAround = { above: 0xffffff, below: 0xa39a90, intensity: 0.9 };
 
+/** From what is lit; shadows are thrown within a box about it, mm. */
+const lampMm = 220;
+const shadowBox = { left: -110, right: 110, top: 110, bottom: -110, near: 40, far: 420 };
+const shadowTexels = 2048;
+const shadowBlurTexels = 5;
+const shadowBiasMm = 0.35;
+/** Lamps of a theatre are wide and stand around the surgeon's head: no shadow is black, and few fall where they look. */
+const shadowStrength = 0.5;
+const lampBesideWithShadows = 0.5;
+
 const directionOf = ({ from }: ViewersLight, right: Vector3, up: Vector3, back: Vector3): Vector3 =>
   new Vector3().addScaledVector(right, from[0]).addScaledVector(up, from[1]).addScaledVector(back, from[2]);
 
@@ -26,10 +36,38 @@ export class OperatingLights {
     for (const { light } of this.lights) scene.add(light, light.target);
   }
 
+  /** What the shadows fall on lies around this place, world frame. */
+  setCentre(centre: Vector3): void {
+    for (const { light } of this.lights) light.target.position.copy(centre);
+  }
+
+  /** Whether the lamp throws shadows. */
+  throwShadows(on: boolean): void {
+    const [{ light } = { light: null }] = this.lights;
+    if (light === null || light.castShadow === on) return;
+    light.castShadow = on;
+    const { shadow } = light;
+    if (on) {
+      shadow.mapSize.setScalar(shadowTexels);
+      shadow.radius = shadowBlurTexels;
+      shadow.intensity = shadowStrength;
+      shadow.normalBias = shadowBiasMm;
+      Object.assign(shadow.camera, shadowBox);
+      shadow.camera.updateProjectionMatrix();
+    } else {
+      shadow.map?.dispose();
+      shadow.map = null;
+    }
+  }
+
   follow(camera: PerspectiveCamera): void {
     const column = (i: number) => new Vector3().setFromMatrixColumn(camera.matrixWorld, i).normalize();
     const [right, up, back] = [column(0), column(1), column(2)] as const;
-    for (const { of, light } of this.lights) light.position.copy(directionOf(of, right, up, back));
+    const beside = this.lights[0]?.light.castShadow === true ? lampBesideWithShadows : 1;
+    right.multiplyScalar(beside);
+    up.multiplyScalar(beside);
+    for (const { of, light } of this.lights)
+      light.position.copy(light.target.position).addScaledVector(directionOf(of, right, up, back).normalize(), lampMm);
   }
 }
 

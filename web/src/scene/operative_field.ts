@@ -15,12 +15,16 @@ import {
 } from 'three';
 
 import type { PlanFrame } from '../practice/plan_frame';
+import { humerusGeometry } from './humerus';
 import { operatingLightFor } from './lights';
+import { shadowed } from './shadows';
 import { operatingRoom, steelMaterial } from './steel';
 import { surgeonsEye } from './surgeon_eye';
-import { bladesGeometry, humerusGeometry, ringGeometry } from './retractors';
+import { bladesGeometry, ringGeometry } from './retractors';
 import { coverGeometries, woundGeometry } from './wound_shape';
 
+/** Half of what is seen in theatre: the wound with its edges. */
+export const theatreViewMm = 54;
 const steelColour = new Color(0xc3ccd0);
 
 /** How much a part shines; steel mirrors the room. */
@@ -45,6 +49,8 @@ export class OperativeField {
 
   /** It lies about a shoulder's planned axis, frame of the bone at rest; null: there is no shoulder. */
   setPlan(plan: PlanFrame | null): void {
+    // A connection that begins again has the same plan.
+    if (plan !== null && this.plan?.entry.equals(plan.entry) === true && this.plan.axis.equals(plan.axis)) return;
     this.drop();
     this.plan = plan;
     if (plan === null) return;
@@ -59,7 +65,9 @@ export class OperativeField {
     this.drop();
     this.madeFull = full;
     for (const [geometry, gloss] of fieldParts())
-      group.add(full ? new Mesh(geometry, this.shining(gloss)) : new Mesh(litOnce(geometry, plan), plainMaterial()));
+      group.add(
+        full ? shadowed(new Mesh(geometry, this.shining(gloss))) : new Mesh(litOnce(geometry, plan), plainMaterial()),
+      );
   }
 
   dispose(): void {

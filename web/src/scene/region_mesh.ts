@@ -11,6 +11,7 @@ import type { BlockSurface } from '../wire/messages';
 import type { BlockLayout } from './block_layout';
 import { marksAttribute } from './cut_bone';
 import { type GeometryPart, haveParts } from './line_hits';
+import { shadowed } from './shadows';
 
 /** Values of a vertex in a block's buffers. */
 const stride = 4;
@@ -52,7 +53,7 @@ export class RegionMesh {
     geometry.setIndex(new BufferAttribute(indices, 1));
     geometry.boundingSphere = layout.regionBall();
     haveParts(geometry, this.parts);
-    this.mesh = new Mesh(geometry, material);
+    this.mesh = shadowed(new Mesh(geometry, material));
     this.mesh.matrixAutoUpdate = false;
     this.mesh.matrix.copy(layout.gridFromRegionSteps(surfaces[0]?.block ?? 0));
   }

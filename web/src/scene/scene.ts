@@ -21,9 +21,10 @@ import type { Surface } from '../wire/ply';
 import { AimView } from './aim_view';
 import { BoneView, type BoneReplacement } from './bone_view';
 import { OrbitCamera, type ViewName } from './orbit_camera';
+import { PictureQuality } from './picture_quality';
 import { watchContext } from './context_watch';
 import { planeThroughAxis, sectionPlanes } from './cut_planes';
-import { OperativeField } from './operative_field';
+import { OperativeField, theatreViewMm } from './operative_field';
 import { FrameRequest } from './frame_request';
 import { Headset, type Standpoint } from './headset';
 import { OperatingLights } from './lights';
@@ -31,13 +32,10 @@ import type { Eye } from './shared_eye';
 import { drawsInSoftware } from './software_drawing';
 import { SurgeonCamera } from './surgeon_camera';
 import { SurroundingsView } from './surroundings_view';
-import { ToolQuality } from './tool_quality';
 import { ToolView } from './tool_view';
 
 /** Beyond this the eye gains little and a tablet loses much. */
 const pixelRatioMax = 2;
-/** Half of what is seen in theatre: the wound with its edges. */
-const theatreFieldMm = 54;
 /** A picture that was not drawn for a while does not make up for it in one step. */
 const longestStepS = 0.1;
 
@@ -49,7 +47,7 @@ export class BoneScene implements SteeredView {
   /** The browser has taken the picture away; it is drawn anew when it is given back. */
   readonly lost: ReadonlySignal<boolean>;
   readonly headset: Headset;
-  readonly toolQuality: ToolQuality;
+  readonly quality: PictureQuality;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly bone = new BoneView(() => this.invalidate());
@@ -79,11 +77,12 @@ export class BoneScene implements SteeredView {
   /** Throws where the browser offers no WebGL. */
   constructor() {
     const software = drawsInSoftware();
-    this.toolQuality = new ToolQuality(software);
+    this.quality = new PictureQuality(software);
     this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !software, alpha: true });
     this.renderer.toneMapping = NeutralToneMapping;
     this.renderer.toneMappingExposure = 1.05;
     this.renderer.localClippingEnabled = true;
+    this.renderer.shadowMap.enabled = true;
     this.orbit = new OrbitCamera(
       this.canvas,
       () => this.invalidate(),
@@ -169,6 +168,7 @@ export class BoneScene implements SteeredView {
     this.plan = new PlanFrame(hello);
     this.surgeon.setPlan(this.plan);
     this.surroundings.begin(hello);
+    this.lights.setCentre(this.plan.entry);
     this.field.setPlan(isTwoPlates(hello) ? null : this.plan);
     if (this.framedCase !== hello.caseId) {
       this.framedCase = hello.caseId;
@@ -227,11 +227,11 @@ export class BoneScene implements SteeredView {
   /** What of the bone is seen and from where. In theatre the reamer hides what is behind it, and no plan is drawn. */
   setView(choices: ViewChoices, theatre: boolean): void {
     this.choices = choices;
-    this.toolQuality.choose(choices.toolDrawing);
+    this.quality.choose(choices.toolDrawing);
     this.inTheatre = theatre;
     this.aim.setWanted(!theatre);
     this.bone.paint.setWanted(choices.boneKinds);
-    this.surgeon.follow(choices.camera === 'trainee', theatre ? theatreFieldMm : undefined);
+    this.surgeon.follow(choices.camera === 'trainee', theatre ? theatreViewMm : undefined);
     this.invalidate();
   }
 
@@ -278,17 +278,18 @@ export class BoneScene implements SteeredView {
     const camera = worn ? this.headset.camera : this.orbit.camera;
     const seconds = Math.min((beganMs - this.drawnAtMs) / 1000, longestStepS);
     const moving = this.surgeon.step(seconds);
-    if (this.toolMoves) this.toolQuality.drawnAfter(beganMs - this.drawnAtMs);
+    if (this.toolMoves) this.quality.drawnAfter(beganMs - this.drawnAtMs);
     this.drawnAtMs = beganMs;
     if (!worn) camera.updateMatrixWorld();
-    this.lights.follow(camera);
     const seenThrough = this.choices.seeThrough && this.choices.opacity < 1;
+    this.lights.throwShadows(this.quality.level.peek() === 'fine' && !seenThrough && !worn);
+    this.lights.follow(camera);
     const cuts = this.cuts(camera);
     this.bone.setLook(seenThrough ? this.choices.opacity : 1, cuts);
     this.surroundings.setLook(seenThrough, cuts);
-    this.field.setShown(this.inTheatre, this.toolQuality.full.peek());
+    this.field.setShown(this.inTheatre, this.quality.full.peek());
     const look = this.inTheatre ? 'steel' : seenThrough ? 'throughBone' : 'glass';
-    this.tool.setLook(look, this.toolQuality.full.peek(), cuts.length === 0);
+    this.tool.setLook(look, this.quality.full.peek(), cuts.length === 0);
     this.toolMoves = this.tool.step(seconds);
     if (seenThrough) this.drawSeenThrough(cuts, camera);
     else this.renderer.render(this.scene, camera);

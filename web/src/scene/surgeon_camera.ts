@@ -11,7 +11,7 @@ const nearEnoughMm = 0.1;
 /** Moves the camera to where the surgeon stands and keeps it on the reamer, and lets it be upright again afterwards. */
 export class SurgeonCamera {
   private following = false;
-  private fieldRadiusMm: number | undefined;
+  private viewRadiusMm: number | undefined;
   private settled = true;
   private plan: PlanFrame | null = null;
   private tool: Vector3 | null = null;
@@ -28,11 +28,11 @@ export class SurgeonCamera {
     this.tool = tip;
     if (this.following) this.settled = false;
   }
-  /** `fieldRadiusMm`: half of what is seen around the reamer; undefined: as in the set views. */
-  follow(following: boolean, fieldRadiusMm?: number): void {
-    if (following === this.following && fieldRadiusMm === this.fieldRadiusMm) return;
+  /** `viewRadiusMm`: half of what is seen around the reamer; undefined: as in the set views. */
+  follow(following: boolean, viewRadiusMm?: number): void {
+    if (following === this.following && viewRadiusMm === this.viewRadiusMm) return;
     this.following = following;
-    this.fieldRadiusMm = fieldRadiusMm;
+    this.viewRadiusMm = viewRadiusMm;
     this.settled = false;
   }
 
@@ -43,7 +43,7 @@ export class SurgeonCamera {
     const share = this.still.matches ? 1 : 1 - Math.exp(-seconds / glideS);
     const now = orbit.eyePose(this.up);
     const goal = this.following ? surgeonsEye(plan, this.tool) : { ...now, up: superior };
-    const goalMm = this.following ? orbit.fittingDistance(this.fieldRadiusMm) : orbit.distanceMm;
+    const goalMm = this.following ? orbit.fittingDistance(this.viewRadiusMm) : orbit.distanceMm;
     const reached = arrived(now, goal) && Math.abs(goalMm - orbit.distanceMm) < nearEnoughMm;
     const next = reached ? goal : gone(now, goal, share);
     this.up = next.up;

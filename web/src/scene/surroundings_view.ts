@@ -4,6 +4,7 @@ import { PlanFrame } from '../practice/plan_frame';
 import type { Hello } from '../wire/messages';
 import type { Surface } from '../wire/ply';
 import { boneMaterial, lookOfBone } from './bone_material';
+import { shadowed } from './shadows';
 import { surfaceGeometry } from './surface_geometry';
 
 /**
@@ -51,7 +52,7 @@ export class SurroundingsView {
       this.mesh = null;
     }
     if (surface === null || hello === null) return;
-    this.mesh = new Mesh(surfaceGeometry(surface, beyondReach(surface, hello)), this.material);
+    this.mesh = shadowed(new Mesh(surfaceGeometry(surface, beyondReach(surface, hello)), this.material));
     this.group.add(this.mesh);
   }
 }
@@ -77,7 +78,7 @@ export function beyondReach({ positions, indices }: Surface, of: GridAndPlan): U
   }
   const left: number[] = [];
   for (let i = 0; i < indices.length; i += 3) {
-    const [a = 0, b = 0, c = 0] = indices.subarray(i, i + 3);
+    const [a, b, c] = [indices[i] ?? 0, indices[i + 1] ?? 0, indices[i + 2] ?? 0];
     if (!(inReach[a] && inReach[b] && inReach[c])) left.push(a, b, c);
   }
   return Uint32Array.from(left);

@@ -1,5 +1,6 @@
 import { type BufferGeometry, CylinderGeometry, DoubleSide, Group, Mesh, MeshStandardMaterial } from 'three';
 
+import { shadowed } from './shadows';
 import { hidesNothing, operatingRoom, steelMaterial } from './steel';
 import { bladesOf, bodyOf, envelopeOf, sweptOf } from './tool_shape';
 import type { ToolProfile } from './tool_profile';
@@ -48,8 +49,8 @@ export class SteelParts {
   private look: ToolLook = 'glass';
 
   constructor(profile: ToolProfile) {
-    this.body = new Mesh(bodyOf(profile), this.bodySteel);
-    this.blades = new Mesh(bladesOf(profile), this.bladeSteel);
+    this.body = shadowed(new Mesh(bodyOf(profile), this.bodySteel));
+    this.blades = shadowed(new Mesh(bladesOf(profile), this.bladeSteel));
     this.swept = new Mesh(sweptOf(profile), this.sweptSteel);
     this.envelope = new Mesh(envelopeOf(profile), this.faintGlass);
     this.sweptSteel.transparent = true;

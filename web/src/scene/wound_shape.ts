@@ -13,8 +13,9 @@ interface Level {
 }
 
 /**
- * A deltopectoral wound held open by retractors: over the glenoid as wide as the largest reamer, and wider towards the
- * skin to where the surgeon stands. Posterior there is room for the humerus, which is held back.
+ * A deltopectoral wound held open by retractors: over the glenoid it lets a reamer of 40 mm in along the planned axis, and
+ * is wider towards the skin to where the surgeon stands. Posterior there is room for the humerus, which is held back. A
+ * reamer that leans or stands aside lies in it: soft parts give way.
  */
 export const skinMm = 47;
 const levels: readonly Level[] = [

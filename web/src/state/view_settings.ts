@@ -14,8 +14,13 @@ export interface Section {
 export const sectionReachMm = 40;
 export const opacityLeast = 0.1;
 
-/** In full the reamer is an instrument that turns; plain it is see-through and costs less to draw. */
-export const toolDrawings = ['automatic', 'full', 'plain'] as const;
+/**
+ * From what costs least to draw: plain, the reamer is see-through; in full it is an instrument that turns, and the rest of
+ * the scapula is there; fine has shadows, too.
+ */
+export const pictureLevels = ['plain', 'full', 'fine'] as const;
+export type PictureLevel = (typeof pictureLevels)[number];
+export const toolDrawings = ['automatic', 'fine', 'full', 'plain'] as const;
 export type ToolDrawing = (typeof toolDrawings)[number];
 
 /** How somebody wants to see the bone. */

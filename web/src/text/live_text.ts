@@ -26,9 +26,9 @@ export const liveText = {
   boneOpacity: 'Bone',
   toolDrawing: 'Picture',
   toolDrawingHint:
-    'Full: the reamer is steel, turns and throws chips, and the rest of the scapula is drawn. Plain: less work for the computer.',
-  toolDrawingNamed: { automatic: 'Automatic', full: 'Full', plain: 'Plain' },
-  toolDrawnNow: (full: boolean) => `Automatic (${full ? 'full' : 'plain'} now)`,
+    'Full: the reamer is steel, turns and throws chips, and the rest of the scapula is drawn. Fine: with shadows, too. Plain: less work for the computer.',
+  toolDrawingNamed: { automatic: 'Automatic', fine: 'Fine', full: 'Full', plain: 'Plain' },
+  toolDrawnNow: (level: string) => `Automatic (${level} now)`,
   opacityValue: (percent: string) => `${percent} % opaque`,
   section: { axial: 'Axial', coronal: 'Coronal', sagittal: 'Sagittal' },
   sectionCuts: {

@@ -32,6 +32,21 @@ const isLeft = (surface: Surface, gridVoxels = 200) =>
     worldFromGrid: { translationMm: [-50, -50, -50], rotationXyzw: [0, 0, 0, 1] },
   }).length > 0;
 
+describe('beyondReach', () => {
+  it('knows a grid that lies turned', () => {
+    // Its x is the world's y: 5 mm wide and 100 mm long, beside the axis.
+    const turned = {
+      axisEntryMm: [1, 2, 3],
+      axisDirection: [0, 0, 1],
+      gridDims: [200, 10, 200],
+      voxelSpacingMm: [0.5, 0.5, 0.5],
+      worldFromGrid: { translationMm: [0, 0, -50], rotationXyzw: [0, 0, Math.SQRT1_2, Math.SQRT1_2] },
+    } satisfies Parameters<typeof beyondReach>[1];
+    expect(beyondReach(at(-2, 20, 0), turned).length).toBe(0);
+    expect(beyondReach(at(2, 20, 0), turned).length).toBe(3);
+  });
+});
+
 describe('page and server', () => {
   it('paint cut bone alike', () => {
     const colour = /cut_bone_colour\{([\d.]+)f, ([\d.]+)f, ([\d.]+)f\}/;

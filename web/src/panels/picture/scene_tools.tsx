@@ -6,6 +6,7 @@ import { useMemo } from 'preact/hooks';
 import { liveText } from '../../text/live_text';
 import {
   opacityLeast,
+  type PictureLevel,
   sectionNames,
   sectionReachMm,
   type SectionName,
@@ -25,12 +26,12 @@ const keyed = signal<SectionName>('axial');
 
 interface Parts {
   view: ViewSettings;
-  /** Whether the reamer is drawn in full now. */
-  toolInFull: ReadonlySignal<boolean>;
+  /** How much is drawn now. */
+  level: ReadonlySignal<PictureLevel>;
 }
 
 /** What the picture shows: the camera, and how the bone is seen. All of it also by keys. */
-export function SceneTools({ view, toolInFull }: Parts) {
+export function SceneTools({ view, level }: Parts) {
   const keys = useMemo(
     () => Object.fromEntries(Object.entries(actions).map(([key, action]) => [key, () => action(view)])),
     [view],
@@ -81,7 +82,7 @@ export function SceneTools({ view, toolInFull }: Parts) {
       >
         {liveText.sections}
       </button>
-      {open.value && <SectionsPanel view={view} toolInFull={toolInFull} />}
+      {open.value && <SectionsPanel view={view} level={level} />}
       {boneKinds && !open.value && <KindsLegend />}
     </>
   );
@@ -106,7 +107,7 @@ function KindsLegend() {
   );
 }
 
-function SectionsPanel({ view, toolInFull }: Parts) {
+function SectionsPanel({ view, level }: Parts) {
   const { opacity, seeThrough } = view.choices.value;
   const percent = fixed(opacity * 100, 0);
   return (
@@ -143,7 +144,7 @@ function SectionsPanel({ view, toolInFull }: Parts) {
       {sectionNames.map((name, i) => (
         <SectionRow key={name} view={view} name={name} letter={String(i + 1)} />
       ))}
-      <ToolDrawingRow view={view} toolInFull={toolInFull} />
+      <ToolDrawingRow view={view} level={level} />
     </div>
   );
 }
@@ -198,7 +199,7 @@ function SectionRow({ view, name, letter }: { view: ViewSettings; name: SectionN
 }
 
 /** How the reamer is drawn, and what `automatic` has come to. */
-function ToolDrawingRow({ view, toolInFull }: Parts) {
+function ToolDrawingRow({ view, level }: Parts) {
   const chosen = view.choices.value.toolDrawing;
   return (
     <label class="section-row tool-drawing" title={liveText.toolDrawingHint}>
@@ -215,7 +216,7 @@ function ToolDrawingRow({ view, toolInFull }: Parts) {
         {toolDrawings.map((one) => (
           <option key={one} value={one}>
             {one === 'automatic' && chosen === one
-              ? liveText.toolDrawnNow(toolInFull.value)
+              ? liveText.toolDrawnNow(level.value)
               : liveText.toolDrawingNamed[one]}
           </option>
         ))}

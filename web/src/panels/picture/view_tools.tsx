@@ -15,7 +15,7 @@ const views: readonly (readonly [ViewName, string])[] = [
 ];
 
 interface Parts {
-  scene: Pick<BoneScene, 'look' | 'headset' | 'enterHeadset' | 'toolQuality'>;
+  scene: Pick<BoneScene, 'look' | 'headset' | 'enterHeadset' | 'quality'>;
   view: ViewSettings;
   reamerShown: Signal<boolean>;
   children?: ComponentChildren;
@@ -38,7 +38,7 @@ export function ViewTools({ scene, view, reamerShown, children }: Parts) {
           {label}
         </button>
       ))}
-      <SceneTools view={view} toolInFull={scene.toolQuality.full} />
+      <SceneTools view={view} level={scene.quality.level} />
       {children}
       <HeadsetButton headset={scene.headset} putOn={() => scene.enterHeadset()} />
       <ReamerChoice shown={reamerShown} />

@@ -74,7 +74,7 @@ export class ReviewWorkspace {
       session.store,
       view.scene,
       new MeshLoader(),
-      () => mayRead() && view.scene.toolQuality.full.value,
+      () => mayRead() && view.scene.quality.full.value,
       this.origin,
     );
     const close = () => {
