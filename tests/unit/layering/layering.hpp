@@ -69,7 +69,7 @@ inline constexpr Limits server_limits{.header_lines = 250,
                                       .single_function_headers = 15,
                                       .private_headers = 22,
                                       .files = 980,
-                                      .lines = 90400,
+                                      .lines = 90500,
                                       .min_median_file_lines = 70,
                                       .max_median_file_lines = 110};
 
