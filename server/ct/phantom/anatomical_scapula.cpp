@@ -71,7 +71,7 @@ double falling(double most, double distance, double reach) {
   return most / (1.0 + share * share);
 }
 
-/// In the mean scapula's mm; what is joined there is less than its parts by up to this.
+/// In the mean scapula's mm, and more than a joint takes away.
 double far_of_sweep_mm(const AnatomicalSizes& s) {
   return AnatomicalScapula::far_mm / s.scale + joint_rounding_mm;
 }

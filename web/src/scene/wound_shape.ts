@@ -1,4 +1,6 @@
-import { BufferAttribute, BufferGeometry, Color } from 'three';
+import { type BufferGeometry, Color } from 'three';
+
+import { RingSurface } from './ring_surface';
 
 /** Superior, anterior and lateral of the planned entry, mm. */
 export type FieldPoint = readonly [superior: number, anterior: number, lateral: number];
@@ -89,38 +91,6 @@ const unevenShare = (lateralMm: number): number =>
 /** Deep in a wound there is less light. */
 const lightAt = (lateralMm: number): number => 0.42 + 0.58 * Math.min(Math.max((lateralMm + 12) / 50, 0), 1);
 
-/** Points and colours of a surface of rows around the wound. */
-class Rows {
-  private readonly positions: number[] = [];
-  private readonly colours: number[] = [];
-  private rows = 0;
-
-  add(row: (angle: number) => { at: FieldPoint; colour: Color; light: number }): void {
-    for (let i = 0; i < around; ++i) {
-      const { at, colour, light } = row((2 * Math.PI * i) / around);
-      this.positions.push(...at);
-      this.colours.push(light * colour.r, light * colour.g, light * colour.b);
-    }
-    ++this.rows;
-  }
-
-  /** The side that is seen is that of the wound's axis, or lateral. */
-  geometry(): BufferGeometry {
-    const indices: number[] = [];
-    for (let row = 1; row < this.rows; ++row)
-      for (let i = 0; i < around; ++i) {
-        const [next, below] = [(i + 1) % around, (row - 1) * around];
-        indices.push(below + i, row * around + i, row * around + next, below + i, row * around + next, below + next);
-      }
-    const geometry = new BufferGeometry();
-    geometry.setAttribute('position', new BufferAttribute(new Float32Array(this.positions), 3));
-    geometry.setAttribute('color', new BufferAttribute(new Float32Array(this.colours), 3));
-    geometry.setIndex(indices);
-    geometry.computeVertexNormals();
-    return geometry;
-  }
-}
-
 /** A point of the wall at a height, so far before it. */
 export function onWall(angle: number, lateralMm: number, beforeMm: number): FieldPoint {
   const above = Math.max(
@@ -137,7 +107,7 @@ export function onWall(angle: number, lateralMm: number, beforeMm: number): Fiel
 
 /** Its walls and its floor, which leaves the bone out. */
 export function woundGeometry(): BufferGeometry {
-  const rows = new Rows();
+  const rows = new RingSurface(around);
   for (let i = 0; i + 1 < levels.length; ++i) {
     const [low, high] = [levels[i], levels[i + 1]] as [Level, Level];
     const last = i + 2 === levels.length ? 1 : 0;
@@ -171,14 +141,14 @@ export function onSkin(angle: number, mm: number): FieldPoint {
 
 /** The skin around the wound, and the drape as far as anybody sees. */
 export function coverGeometries(): { skin: BufferGeometry; drape: BufferGeometry } {
-  const skinBand = new Rows();
+  const skinBand = new RingSurface(around);
   for (let row = 0; row <= skinRows; ++row)
     skinBand.add((angle) => ({
       at: onSkin(angle, (skinWideMm * row) / skinRows),
       colour: skin,
       light: 1 + 0.05 * unevenness(angle, 7 * row),
     }));
-  const drape = new Rows();
+  const drape = new RingSurface(around);
   for (let row = 0; row <= drapeRows; ++row)
     drape.add((angle) => {
       const mm = skinWideMm - 1 + drapeWideMm * (row / drapeRows) ** 1.6;
