@@ -90,8 +90,9 @@ TriangleMesh scapula_around(const Workup& workup, const std::vector<int16_t>& hu
 TriangleMesh beyond_reach(const TriangleMesh& around, const case_::Plan& plan, const voxel::VoxelGrid& grid) {
   const Vec3 axis = plan.axis_direction.normalized();
   const Pose grid_from_world = grid.world_from_grid.inverse();
+  const Aabb box = grid.bounds_mm();
   return without(around, [&](const Vec3& world_mm) {
-    if (!grid.bounds_mm().contains(grid_from_world.point(world_mm))) return false;
+    if (!box.contains(grid_from_world.point(world_mm))) return false;
     const Vec3 from_entry = world_mm - plan.entry_mm;
     const double along_mm = from_entry.dot(axis);
     return along_mm < reamers_depth_mm && (from_entry - along_mm * axis).norm() < reamers_reach_mm;

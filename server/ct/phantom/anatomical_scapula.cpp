@@ -3,8 +3,6 @@
 #include <Eigen/Geometry>
 #include <limits>
 
-#include "ct/phantom/implicit_solids.hpp"
-
 namespace ream::ct {
 namespace {
 
@@ -144,22 +142,12 @@ FlatSweep::FlatSweep(const std::vector<Knot>& knots, const Vec3& flat, double fl
     }
   points.push_back(stretched(knots.back().at));
   radii.push_back(knots.back().half_breadth_mm);
-  for (size_t i = 0; i + 1 < points.size(); ++i)
-    segments_.push_back(segment_between(points[i], points[i + 1], radii[i], radii[i + 1]));
-}
-
-FlatSweep::Segment FlatSweep::segment_between(const Vec3& a, const Vec3& b, double radius_a,
-                                              double radius_b) {
   constexpr double slack = 1e-6;  // more than rounding
-  const Vec3 along = b - a;
-  const double reach = 0.5 * along.norm() + std::max(radius_a, radius_b) + slack;
-  return {a, along, along.squaredNorm(), radius_a, radius_b - radius_a, a + 0.5 * along, reach};
-}
-
-/// As capsule() has it.
-double FlatSweep::distance_to(const Segment& s, const Vec3& p) {
-  const double t = std::clamp((p - s.from).dot(s.along) / s.squared_length, 0.0, 1.0);
-  return (p - s.from - t * s.along).norm() - (s.radius + t * s.widening);
+  for (size_t i = 0; i + 1 < points.size(); ++i) {
+    const Capsule capsule(points[i], points[i + 1], radii[i], radii[i + 1]);
+    const double reach = 0.5 * capsule.along.norm() + std::max(radii[i], radii[i + 1]) + slack;
+    segments_.push_back({capsule, capsule.from + 0.5 * capsule.along, reach});
+  }
 }
 
 double FlatSweep::value(const Vec3& p) const {
@@ -173,11 +161,11 @@ double FlatSweep::value(const Vec3& p) const {
     const double squared = (at - segment.middle).squaredNorm();
     if (squared < squared_to_middle) likely = &segment, squared_to_middle = squared;
   }
-  double nearest = distance_to(*likely, at);
+  double nearest = likely->capsule.value(at);
   for (const Segment& segment : segments_) {
     const double in_reach = nearest + segment.reach;
     if (in_reach <= 0.0 || (at - segment.middle).squaredNorm() > in_reach * in_reach) continue;
-    nearest = std::min(nearest, distance_to(segment, at));
+    nearest = std::min(nearest, segment.capsule.value(at));
   }
   return nearest / flatness_;
 }

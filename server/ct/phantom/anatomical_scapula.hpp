@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "ct/phantom/implicit_solids.hpp"
 #include "geometry/vec.hpp"
 
 namespace ream::ct {
@@ -33,15 +34,12 @@ class FlatSweep {
  private:
   Vec3 stretched(const Vec3& p) const { return p + (flatness_ - 1.0) * p.dot(flat_) * flat_; }
 
-  /// A capsule of the stretched curve, and a sphere that holds it.
+  /// A part of the stretched curve, and the sphere that holds it.
   struct Segment {
-    Vec3 from, along;
-    double squared_length, radius, widening;
+    Capsule capsule;
     Vec3 middle;
     double reach;
   };
-  static Segment segment_between(const Vec3& a, const Vec3& b, double radius_a, double radius_b);
-  static double distance_to(const Segment& segment, const Vec3& stretched_point);
 
   Vec3 flat_;
   double flatness_, far_mm_;

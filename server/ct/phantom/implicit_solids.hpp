@@ -14,11 +14,23 @@ inline double rounded_max(double a, double b, double width) {
 }
 inline double rounded_min(double a, double b, double width) { return -rounded_max(-a, -b, width); }
 
-/// Distance to the segment a-b with a radius that goes linearly from ra to rb; negative within it.
+/// Around the segment a-b, with a radius that goes linearly from ra to rb.
+struct Capsule {
+  Capsule(const Vec3& a, const Vec3& b, double ra, double rb)
+      : from(a), along(b - a), squared_length(along.squaredNorm()), radius(ra), widening(rb - ra) {}
+
+  /// Distance to it; negative within it.
+  double value(const Vec3& p) const {
+    const double t = std::clamp((p - from).dot(along) / squared_length, 0.0, 1.0);
+    return (p - from - t * along).norm() - (radius + t * widening);
+  }
+
+  Vec3 from, along;
+  double squared_length, radius, widening;
+};
+
 inline double capsule(const Vec3& p, const Vec3& a, const Vec3& b, double ra, double rb) {
-  const Vec3 ab = b - a;
-  const double t = std::clamp((p - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
-  return (p - a - t * ab).norm() - (ra + t * (rb - ra));
+  return Capsule(a, b, ra, rb).value(p);
 }
 
 /// Smooth step between knots: value at `x` of a piecewise curve with flat tangents at its knots.

@@ -45,8 +45,8 @@ class PhantomShape {
   GroundTruth truth() const;
 
  private:
-  /// What makes the scapula at a place of its surroundings and a step of the gradient around it: the other
-  /// one is too far off to count.
+  /// What makes the scapula at a place near its surface, and within the gradient's step of it: `body` or
+  /// `processes` where the other is too far off to count.
   enum class MadeBy { both, body, processes };
   struct ScapulaValue {
     double value;

@@ -14,7 +14,7 @@ import type { BlockSurface, Hello } from '../wire/messages';
 import { BlockLayout } from './block_layout';
 import { marksAttribute } from './cut_bone';
 import { RegionMesh } from './region_mesh';
-import { shadowed } from './shadows';
+import { shadowed } from './lights';
 
 /** What did not change for so long has come to rest. */
 const settlesAfterMs = 1500;

@@ -1,4 +1,12 @@
-import { Color, DirectionalLight, HemisphereLight, Vector3, type PerspectiveCamera, type Scene } from 'three';
+import {
+  Color,
+  DirectionalLight,
+  HemisphereLight,
+  type Mesh,
+  Vector3,
+  type PerspectiveCamera,
+  type Scene,
+} from 'three';
 
 /** A light that goes with the viewer. */
 interface ViewersLight {
@@ -11,7 +19,7 @@ const lamp: ViewersLight = { colour: 0xfff6e8, intensity: 2.5, from: [-0.55, 0.9
 const fill: ViewersLight = { colour: 0xe4edf6, intensity: 0.9, from: [1, -0.1, 0.8] };
 const allAround = { above: 0xffffff, below: 0xa39a90, intensity: 0.9 };
 
-/** From what is lit; shadows are thrown within a box about it, mm. */
+/** Of the lamp from what it lights, and the box about that in which it throws shadows, mm. */
 const lampMm = 220;
 const shadowBox = { left: -110, right: 110, top: 110, bottom: -110, near: 40, far: 420 };
 const shadowTexels = 2048;
@@ -19,7 +27,7 @@ const shadowBlurTexels = 5;
 const shadowBiasMm = 0.35;
 /** Lamps of a theatre are wide and stand around the surgeon's head: no shadow is black, and few fall where they look. */
 const shadowStrength = 0.5;
-const lampBesideWithShadows = 0.5;
+const besideWithShadows = 0.5;
 
 const directionOf = ({ from }: ViewersLight, right: Vector3, up: Vector3, back: Vector3): Vector3 =>
   new Vector3().addScaledVector(right, from[0]).addScaledVector(up, from[1]).addScaledVector(back, from[2]);
@@ -29,46 +37,52 @@ const directionOf = ({ from }: ViewersLight, right: Vector3, up: Vector3, back: 
  * bowl, a weak fill from the right and a little from all around. The lamp goes with the viewer.
  */
 export class OperatingLights {
-  private readonly lights = [lamp, fill].map((of) => ({ of, light: new DirectionalLight(of.colour, of.intensity) }));
+  private readonly lamp = new DirectionalLight(lamp.colour, lamp.intensity);
+  private readonly fill = new DirectionalLight(fill.colour, fill.intensity);
 
   constructor(scene: Scene) {
+    const { shadow } = this.lamp;
+    shadow.mapSize.setScalar(shadowTexels);
+    shadow.radius = shadowBlurTexels;
+    shadow.intensity = shadowStrength;
+    shadow.normalBias = shadowBiasMm;
+    Object.assign(shadow.camera, shadowBox);
+    shadow.camera.updateProjectionMatrix();
     scene.add(new HemisphereLight(allAround.above, allAround.below, allAround.intensity));
-    for (const { light } of this.lights) scene.add(light, light.target);
+    scene.add(this.lamp, this.lamp.target, this.fill, this.fill.target);
   }
 
   /** What the shadows fall on lies around this place, world frame. */
   setCentre(centre: Vector3): void {
-    for (const { light } of this.lights) light.target.position.copy(centre);
+    for (const light of [this.lamp, this.fill]) light.target.position.copy(centre);
   }
 
   /** Whether the lamp throws shadows. */
   throwShadows(on: boolean): void {
-    const [{ light } = { light: null }] = this.lights;
-    if (light === null || light.castShadow === on) return;
-    light.castShadow = on;
-    const { shadow } = light;
-    if (on) {
-      shadow.mapSize.setScalar(shadowTexels);
-      shadow.radius = shadowBlurTexels;
-      shadow.intensity = shadowStrength;
-      shadow.normalBias = shadowBiasMm;
-      Object.assign(shadow.camera, shadowBox);
-      shadow.camera.updateProjectionMatrix();
-    } else {
-      shadow.map?.dispose();
-      shadow.map = null;
-    }
+    if (this.lamp.castShadow === on) return;
+    this.lamp.castShadow = on;
+    if (on) return;
+    this.lamp.shadow.map?.dispose();
+    this.lamp.shadow.map = null;
   }
 
   follow(camera: PerspectiveCamera): void {
     const column = (i: number) => new Vector3().setFromMatrixColumn(camera.matrixWorld, i).normalize();
-    const [right, up, back] = [column(0), column(1), column(2)] as const;
-    const beside = this.lights[0]?.light.castShadow === true ? lampBesideWithShadows : 1;
-    right.multiplyScalar(beside);
-    up.multiplyScalar(beside);
-    for (const { of, light } of this.lights)
+    const beside = this.lamp.castShadow ? besideWithShadows : 1;
+    const [right, up, back] = [column(0).multiplyScalar(beside), column(1).multiplyScalar(beside), column(2)] as const;
+    for (const [light, of] of [
+      [this.lamp, lamp],
+      [this.fill, fill],
+    ] as const)
       light.position.copy(light.target.position).addScaledVector(directionOf(of, right, up, back).normalize(), lampMm);
   }
+}
+
+/** Throws shadows and is in those of others, wherever the lamp throws any. */
+export function shadowed<T extends Mesh>(mesh: T): T {
+  mesh.castShadow = true;
+  mesh.receiveShadow = true;
+  return mesh;
 }
 
 /** What a dull white surface shows to a viewer who stands there, by its normal (unit): for what is lit once and for all. */

@@ -16,8 +16,7 @@ import {
 
 import type { PlanFrame } from '../practice/plan_frame';
 import { humerusGeometry } from './humerus';
-import { operatingLightFor } from './lights';
-import { shadowed } from './shadows';
+import { operatingLightFor, shadowed } from './lights';
 import { operatingRoom, steelMaterial } from './steel';
 import { surgeonsEye } from './surgeon_eye';
 import { bladesGeometry, ringGeometry } from './retractors';

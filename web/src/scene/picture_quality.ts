@@ -1,6 +1,6 @@
 import { computed, type ReadonlySignal, signal } from '@preact/signals';
 
-import { type PictureLevel, pictureLevels, type ToolDrawing } from '../state/view_settings';
+import { type PictureLevel, pictureLevels, type PictureChoice } from '../state/view_settings';
 
 /** So many pictures tell whether they are drawn fast enough. */
 const pictures = 60;
@@ -15,7 +15,7 @@ export class PictureQuality {
   );
   /** Whether more than the plain picture is drawn. */
   readonly full: ReadonlySignal<boolean> = computed(() => this.level.value !== 'plain');
-  private readonly choice = signal<ToolDrawing>('automatic');
+  private readonly choice = signal<PictureChoice>('automatic');
   private readonly fastEnough: { value: PictureLevel; peek(): PictureLevel };
   private took: number[] = [];
 
@@ -24,7 +24,7 @@ export class PictureQuality {
     this.fastEnough = signal<PictureLevel>(this.firstLevel);
   }
 
-  choose(choice: ToolDrawing): void {
+  choose(choice: PictureChoice): void {
     if (choice === this.choice.peek()) return;
     this.choice.value = choice;
     this.fastEnough.value = this.firstLevel;

@@ -11,7 +11,7 @@ import type { BlockSurface } from '../wire/messages';
 import type { BlockLayout } from './block_layout';
 import { marksAttribute } from './cut_bone';
 import { type GeometryPart, haveParts } from './line_hits';
-import { shadowed } from './shadows';
+import { shadowed } from './lights';
 
 /** Values of a vertex in a block's buffers. */
 const stride = 4;

@@ -4,7 +4,7 @@ import { PlanFrame } from '../practice/plan_frame';
 import type { Hello } from '../wire/messages';
 import type { Surface } from '../wire/ply';
 import { boneMaterial, lookOfBone } from './bone_material';
-import { shadowed } from './shadows';
+import { shadowed } from './lights';
 import { surfaceGeometry } from './surface_geometry';
 
 /**

@@ -1,6 +1,6 @@
 import { type BufferGeometry, CylinderGeometry, DoubleSide, Group, Mesh, MeshStandardMaterial } from 'three';
 
-import { shadowed } from './shadows';
+import { shadowed } from './lights';
 import { hidesNothing, operatingRoom, steelMaterial } from './steel';
 import { bladesOf, bodyOf, envelopeOf, sweptOf } from './tool_shape';
 import type { ToolProfile } from './tool_profile';

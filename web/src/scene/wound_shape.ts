@@ -64,6 +64,13 @@ function edge(level: Level, angle: number): FieldPoint {
   ];
 }
 
+/** The wound's edge between two levels. */
+function edgeBetween(low: Level, high: Level, share: number, angle: number): FieldPoint {
+  const [from, to] = [edge(low, angle), edge(high, angle)];
+  const at = (axis: 0 | 1 | 2) => from[axis] + share * (to[axis] - from[axis]);
+  return [at(0), at(1), at(2)];
+}
+
 /** Smooth, without a repetition that is seen; -1 to 1. */
 function unevenness(angle: number, along: number): number {
   return (
@@ -99,8 +106,7 @@ export function onWall(angle: number, lateralMm: number, beforeMm: number): Fiel
   );
   const [low, high] = [levels[above - 1], levels[above]] as [Level, Level];
   const share = (lateralMm - low.lateralMm) / (high.lateralMm - low.lateralMm);
-  const [from, to] = [edge(low, angle), edge(high, angle)];
-  const [superior, anterior] = [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])];
+  const [superior, anterior] = edgeBetween(low, high, share, angle);
   const before = 1 - beforeMm / Math.hypot(superior, anterior);
   return [superior * before, anterior * before, lateralMm];
 }
@@ -114,8 +120,7 @@ export function woundGeometry(): BufferGeometry {
     for (let part = 0; part < rowsPerLevel + last; ++part) {
       const share = part / rowsPerLevel;
       rows.add((angle) => {
-        const [from, to] = [edge(low, angle), edge(high, angle)];
-        const at = from.map((value, axis) => value + share * ((to[axis] ?? 0) - value)) as unknown as FieldPoint;
+        const at = edgeBetween(low, high, share, angle);
         const fibre = unevenness(angle, 2 * at[2]);
         const out = 1 + 0.035 * fibre * unevenShare(at[2]);
         return {

@@ -20,8 +20,8 @@ export const opacityLeast = 0.1;
  */
 export const pictureLevels = ['plain', 'full', 'fine'] as const;
 export type PictureLevel = (typeof pictureLevels)[number];
-export const toolDrawings = ['automatic', 'fine', 'full', 'plain'] as const;
-export type ToolDrawing = (typeof toolDrawings)[number];
+export const pictureChoices = ['automatic', 'fine', 'full', 'plain'] as const;
+export type PictureChoice = (typeof pictureChoices)[number];
 
 /** How somebody wants to see the bone. */
 export interface ViewChoices {
@@ -34,7 +34,7 @@ export interface ViewChoices {
   /** Of a bone that is seen through, 0 to 1. */
   opacity: number;
   sections: Record<SectionName, Section>;
-  toolDrawing: ToolDrawing;
+  toolDrawing: PictureChoice;
 }
 
 const section: Section = { on: false, offsetMm: 0, flipped: false };
@@ -103,7 +103,7 @@ export function viewFromText(text: string | null): ViewChoices {
     seeThrough: kept.seeThrough === true,
     opacity: limited(numberOr(kept.opacity, plainView.opacity), opacityLeast, 1),
     sections: sections as Record<SectionName, Section>,
-    toolDrawing: toolDrawings.find((one) => one === kept.toolDrawing) ?? plainView.toolDrawing,
+    toolDrawing: pictureChoices.find((one) => one === kept.toolDrawing) ?? plainView.toolDrawing,
   };
 }
 

@@ -10,7 +10,7 @@ import {
   sectionNames,
   sectionReachMm,
   type SectionName,
-  toolDrawings,
+  pictureChoices,
   type ViewSettings,
 } from '../../state/view_settings';
 import { contactColour, kindColours } from '../../scene/bone_paint';
@@ -144,7 +144,7 @@ function SectionsPanel({ view, level }: Parts) {
       {sectionNames.map((name, i) => (
         <SectionRow key={name} view={view} name={name} letter={String(i + 1)} />
       ))}
-      <ToolDrawingRow view={view} level={level} />
+      <PictureRow view={view} level={level} />
     </div>
   );
 }
@@ -198,8 +198,8 @@ function SectionRow({ view, name, letter }: { view: ViewSettings; name: SectionN
   );
 }
 
-/** How the reamer is drawn, and what `automatic` has come to. */
-function ToolDrawingRow({ view, level }: Parts) {
+/** How much is drawn, and what `automatic` has come to. */
+function PictureRow({ view, level }: Parts) {
   const chosen = view.choices.value.toolDrawing;
   return (
     <label class="section-row tool-drawing" title={liveText.toolDrawingHint}>
@@ -209,11 +209,11 @@ function ToolDrawingRow({ view, level }: Parts) {
         value={chosen}
         onChange={(event) => {
           const { value } = event.currentTarget;
-          const toolDrawing = toolDrawings.find((one) => one === value);
+          const toolDrawing = pictureChoices.find((one) => one === value);
           if (toolDrawing !== undefined) view.change({ toolDrawing });
         }}
       >
-        {toolDrawings.map((one) => (
+        {pictureChoices.map((one) => (
           <option key={one} value={one}>
             {one === 'automatic' && chosen === one
               ? liveText.toolDrawnNow(level.value)
