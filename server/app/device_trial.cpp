@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/numbers.hpp"
 #include "core/clock.hpp"
 #include "core/interrupt.hpp"
 #include "device/crash_guard.hpp"
@@ -133,12 +134,6 @@ class Trial {
   TimingHistogram lateness_us_, ages_us_;
   Eigen::AlignedBox3d range_mm_;
 };
-
-std::string rounded(double value, int digits) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
-}
 
 }  // namespace
 

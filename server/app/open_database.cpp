@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "access/access_control.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "store/database_url.hpp"
@@ -30,6 +31,13 @@ std::shared_ptr<store::Database> open_database(const std::string& chosen, const 
   const std::string url = database_url(chosen, data);
   if (url == default_url(data)) make_data_folder(data);
   return std::make_shared<store::Database>(url);
+}
+
+bool has_users(const std::string& chosen, const std::filesystem::path& data) {
+  const store::DatabaseUrl url = store::parse_database_url(database_url(chosen, data));
+  std::error_code failed;
+  if (!url.postgresql && !std::filesystem::exists(url.file, failed)) return false;
+  return access::AccessControl(*open_database(chosen, data)).users.any();
 }
 
 }  // namespace ream::app

@@ -14,4 +14,7 @@ std::string database_url(const std::string& chosen, const std::filesystem::path&
 /// Opens it. The data folder is made if the database is there. Errors are those of store::Database, too.
 std::shared_ptr<store::Database> open_database(const std::string& chosen, const std::filesystem::path& data);
 
+/// Whether people have to log in. Makes nothing where there is no database yet. Errors as open_database().
+bool has_users(const std::string& chosen, const std::filesystem::path& data);
+
 }  // namespace ream::app

@@ -6,6 +6,8 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "store/connection_pool.hpp"
+#include "store/database_url.hpp"
 #include "store/dialect.hpp"
 #include "store/sql.hpp"
 
@@ -28,15 +30,20 @@ std::vector<Migration> embedded_migrations() {
   return found;
 }
 
-/// Those that have run; makes the table that knows it.
+/// Those that have run, of the table that knows it.
 std::set<int> done(Sql& sql) {
-  sql << in_dialect(sql,
-                    "CREATE TABLE IF NOT EXISTS migrations (number BIGINT PRIMARY KEY, name TEXT NOT NULL)");
   std::set<int> numbers;
   int number = 0;
   for_each_row((sql.prepare << "SELECT number FROM migrations", into(number)),
                [&] { numbers.insert(number); });
   return numbers;
+}
+
+/// `unknown`: steps that the database has run, and that this build does not have.
+void refuse_newer(const std::set<int>& unknown) {
+  if (unknown.empty()) return;
+  throw Error(ErrorKind::conflict, "a newer version of ream has changed the database's tables (step " +
+                                       std::to_string(*unknown.rbegin()) + "); update this one");
 }
 
 void run_statements(Sql& sql, const std::string& statements) {
@@ -70,15 +77,31 @@ std::vector<std::string> table_names() {
 
 void migrate(Sql& sql) {
   lock_for_migration(sql);
+  sql << in_dialect(sql,
+                    "CREATE TABLE IF NOT EXISTS migrations (number BIGINT PRIMARY KEY, name TEXT NOT NULL)");
   std::set<int> before = done(sql);
   for (const Migration& step : migrations()) {
     if (before.erase(step.number) > 0) continue;
     run_statements(sql, step.statements);
     sql << "INSERT INTO migrations (number, name) VALUES (:number, :name)", use(step.number), use(step.name);
   }
-  if (!before.empty())
-    throw Error(ErrorKind::conflict, "a newer version of ream has changed the database's tables (step " +
-                                         std::to_string(*before.rbegin()) + "); update this one");
+  refuse_newer(before);
+}
+
+size_t missing_migrations(const std::string& url) {
+  const DatabaseUrl parsed = parse_database_url(url);
+  std::error_code failed;
+  if (!parsed.postgresql && !std::filesystem::exists(parsed.file, failed)) return migrations().size();
+  ConnectionPool pool(parsed, {});
+  const auto lease = pool.take();
+  begin_reading(lease->sql());
+  std::set<int> before;
+  if (!columns_of(lease->sql(), "migrations").empty()) before = done(lease->sql());
+  lease->sql() << "ROLLBACK";
+  size_t missing = 0;
+  for (const Migration& step : migrations()) missing += before.erase(step.number) == 0 ? 1 : 0;
+  refuse_newer(before);
+  return missing;
 }
 
 }  // namespace ream::store

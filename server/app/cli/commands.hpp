@@ -1,5 +1,7 @@
 #pragma once
 #include <filesystem>
+#include <memory>
+#include <string>
 
 namespace CLI {
 class App;
@@ -14,6 +16,8 @@ struct GlobalOptions {
   std::string db;              ///< --db as given; see open_database()
 };
 
+struct ServeOptions;
+
 /// Each adds its sub-command; `options` must outlive `app`. The work is done in the command's callback and
 /// throws ream::Error.
 void add_phantom_command(CLI::App& app, GlobalOptions& options);
@@ -22,7 +26,9 @@ void add_plan_command(CLI::App& app, GlobalOptions& options);
 void add_voxelize_command(CLI::App& app, GlobalOptions& options);
 void add_femesh_command(CLI::App& app, GlobalOptions& options);
 void add_simulate_command(CLI::App& app, GlobalOptions& options);
-void add_serve_command(CLI::App& app, GlobalOptions& options);
+/// Returns what the server is asked for, which is known once `app` has parsed.
+std::shared_ptr<const ServeOptions> add_serve_command(CLI::App& app, GlobalOptions& options);
+void add_doctor_command(CLI::App& app, GlobalOptions& options, std::shared_ptr<const ServeOptions> serve);
 void add_score_command(CLI::App& app, GlobalOptions& options);
 void add_benchmark_command(CLI::App& app, GlobalOptions& options);
 void add_export_command(CLI::App& app, GlobalOptions& options);
@@ -35,5 +41,7 @@ void add_user_command(CLI::App& app, GlobalOptions& options);
 void add_backup_command(CLI::App& app, GlobalOptions& options);
 void add_restore_command(CLI::App& app, GlobalOptions& options);
 void add_bench_command(CLI::App& app, GlobalOptions& options);
+/// Knows all commands that `app` has when it runs.
+void add_completion_command(CLI::App& app);
 
 }  // namespace ream::app

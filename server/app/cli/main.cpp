@@ -1,8 +1,13 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <build_commit.hpp>
 #include <exception>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "app/cli/commands.hpp"
+#include "app/cli/settings_file.hpp"
+#include "app/cli/unknown_argument.hpp"
 #include "app/open_database.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
@@ -12,9 +17,16 @@
 
 namespace {
 
+/// "ream 0.1.0 (0123456789ab, g++ 12.2.0, release)"; without the commit where the sources came without git.
+std::string version_line() {
+  const std::string commit = REAM_BUILD_COMMIT;
+  return ream::version_text() + " (" + (commit.empty() ? "" : commit + ", ") +
+         "g++ " __VERSION__ ", " REAM_BUILD_TYPE ")";
+}
+
 void add_commands(CLI::App& app, ream::app::GlobalOptions& global) {
   using namespace ream::app;
-  app.set_version_flag("--version", ream::version_text());
+  app.set_version_flag("--version", version_line());
   app.add_option("--data", global.data, "Data folder. Default: REAM_DATA, else ~/.local/share/ream");
   app.add_option(
          "--db", global.db,
@@ -24,7 +36,7 @@ void add_commands(CLI::App& app, ream::app::GlobalOptions& global) {
   app.add_flag("--json", global.json, "Machine-readable output on stdout");
   app.fallthrough();
   app.require_subcommand(1);
-  add_serve_command(app, global);
+  add_doctor_command(app, global, add_serve_command(app, global));
   add_simulate_command(app, global);
   add_phantom_command(app, global);
   add_import_command(app, global);
@@ -43,6 +55,28 @@ void add_commands(CLI::App& app, ream::app::GlobalOptions& global) {
   add_backup_command(app, global);
   add_restore_command(app, global);
   add_bench_command(app, global);
+  add_completion_command(app);
+  add_settings_file(app);
+}
+
+/// What was wrong with the command line, or with a settings file.
+std::string usage_message(const CLI::App& app, const std::vector<std::string>& arguments,
+                          const CLI::ParseError& error) {
+  const std::string unknown = ream::app::unknown_argument(app, arguments);
+  if (!unknown.empty()) return unknown + (unknown.back() == '?' ? "" : "; see --help");
+  const auto file = app.get_config_ptr()->as<std::string>();
+  return std::string(error.what()) + "; see --help" + (file.empty() ? "" : " and " + file);
+}
+
+/// One line on stderr; with --json an object. Returns the exit code.
+int fail(ream::ErrorKind kind, const std::string& message, bool for_programs) {
+  if (for_programs)
+    std::cerr << nlohmann::json{{"error", message}, {"exit_code", ream::exit_code(kind)}}.dump(
+                     -1, ' ', false, nlohmann::json::error_handler_t::replace)
+              << '\n';
+  else
+    std::cerr << "ream: " << message << '\n';
+  return ream::exit_code(kind);
 }
 
 }  // namespace
@@ -56,22 +90,21 @@ int main(int argc, char** argv) {
     app.get_subcommand(writing)->preparse_callback([](size_t) { ream::restrict_new_files_to_owner(); });
   ream::take_failed_writes_as_errors();
   ream::device::take_force_away_on_crash();
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  const bool for_programs = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& e) {
-    std::cerr << "ream: " << e.what() << "; see --help\n";
-    return 2;
+    return fail(ream::ErrorKind::usage, usage_message(app, arguments, e), for_programs);
   } catch (const ream::Error& e) {
-    std::cerr << "ream: " << e.what() << '\n';
-    return ream::exit_code(e.kind());
+    return fail(e.kind(), e.what(), for_programs);
   } catch (const std::bad_alloc&) {
-    std::cerr << "ream: not enough memory; use a smaller region or less upsampling\n";
-    return 1;
+    return fail(ream::ErrorKind::unavailable, "not enough memory; use a smaller region or less upsampling",
+                for_programs);
   } catch (const std::exception& e) {
-    std::cerr << "ream: " << e.what() << '\n';
-    return 1;
+    return fail(ream::ErrorKind::io, e.what(), for_programs);
   }
   return 0;
 }

@@ -27,4 +27,10 @@ std::vector<double> parse_numbers(const std::string& text, size_t count, const s
   return numbers;
 }
 
+std::string rounded(double value, int digits) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
 }  // namespace ream::app

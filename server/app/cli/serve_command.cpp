@@ -10,8 +10,10 @@
 
 #include "api/server.hpp"
 #include "app/cli/commands.hpp"
+#include "app/cli/serve_options.hpp"
 #include "app/open_database.hpp"
 #include "app/server_address.hpp"
+#include "app/web_folder.hpp"
 #include "core/clock.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
@@ -20,7 +22,7 @@
 #include "core/interrupt.hpp"
 #include "core/leftovers.hpp"
 #include "core/log.hpp"
-#include "device/registry/device_registry.hpp"
+#include "core/version.hpp"
 #include "isolation/sandbox.hpp"
 #include "openigtlink/server.hpp"
 #include "session/live/session_recovery.hpp"
@@ -32,53 +34,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int max_days = 36500, max_minutes = 7 * 24 * 60;
-
-struct ServeOptions {
-  ServerAddress address;
-  std::string openigtlink;  ///< as on the command line; empty: not wanted
-  fs::path web;
-  std::string backend = "auto", realtime = "try", device = "script";
-  std::optional<int> keep_sessions_days;
-  int keep_deleted_days = 30, end_unstarted_minutes = 10;
-  int delete_at_once_percent = 50;
-};
-
-/// The built page: --web, else web/ beside the program's folder, else web/dist of the source tree it was
-/// built in.
-fs::path web_folder(const fs::path& chosen) {
-  std::error_code failed;
-  if (!chosen.empty()) {
-    if (!fs::is_regular_file(chosen / "index.html", failed))
-      throw Error(ErrorKind::not_found,
-                  "no index.html in " + chosen.string() + "; build the page or correct --web");
-    return chosen;
-  }
-  const fs::path beside = fs::read_symlink("/proc/self/exe", failed).parent_path().parent_path();
-  for (const fs::path& folder : {beside / "share/ream/web", beside / "web/dist"})
-    if (fs::is_regular_file(folder / "index.html", failed)) return folder;
-  log::warn("the page is not built; only the API is served (scripts/build makes the page)");
-  return {};
-}
-
 sim::Realtime realtime_from_text(const std::string& text) {
   return text == "require" ? sim::Realtime::require
          : text == "off"   ? sim::Realtime::off
                            : sim::Realtime::attempt;
 }
 
-std::vector<std::string> device_names() {
-  std::vector<std::string> names;
-  for (const device::DeviceKind& kind : device::device_kinds()) names.push_back(kind.name);
-  return names;
-}
-
-/// Makes nothing where there is no database yet.
-bool has_users(const std::string& db, const fs::path& data) {
-  const store::DatabaseUrl url = store::parse_database_url(database_url(db, data));
-  std::error_code failed;
-  if (!url.postgresql && !fs::exists(url.file, failed)) return false;
-  return access::AccessControl(*open_database(db, data)).users.any();
+log::Format log_format_from_text(const std::string& text) {
+  return text == "text"      ? log::Format::text
+         : text == "journal" ? log::Format::journal
+         : text == "json"    ? log::Format::json
+                             : log::Format::automatic;
 }
 
 /// An expiring link for people who only watch; empty while everybody may do everything.
@@ -119,6 +85,7 @@ void log_sandbox() {
 }
 
 void serve(const ServeOptions& options, const GlobalOptions& global) {
+  log::set_format(log_format_from_text(options.log_format));
   session::SessionContext context;
   context.data = data_folder(global.data);
   context.server_epoch = static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::microseconds>(
@@ -128,6 +95,8 @@ void serve(const ServeOptions& options, const GlobalOptions& global) {
   context.realtime = realtime_from_text(options.realtime);
   api::ServerOptions server_options;
   server_options.web_folder = web_folder(options.web);
+  if (server_options.web_folder.empty())
+    log::warn("the page is not built; only the API is served (scripts/build makes the page)");
   server_options.listen = listen_options(options.address, has_users(global.db, context.data));
   std::optional<openigtlink::ServerOptions> openigtlink_options;
   if (!options.openigtlink.empty())
@@ -160,11 +129,16 @@ void serve(const ServeOptions& options, const GlobalOptions& global) {
   server_options.retention.max_at_once_percent = options.delete_at_once_percent;
   server_options.sessions.unstarted = std::chrono::minutes(options.end_unstarted_minutes);
   if (options.end_unstarted_minutes == 0) server_options.sessions.unstarted.reset();
+  server_options.sessions.paused = std::chrono::minutes(options.end_paused_minutes);
+  if (options.end_paused_minutes == 0) server_options.sessions.paused.reset();
   server_options.make_demo_case = true;
   api::Server server(std::move(server_options));
   server.start();
 
   if (const std::string warning = data_folder_warning(context.data); !warning.empty()) log::warn(warning);
+  log::info(version_text() + ", data folder " + context.data.string() + ", database " +
+            store::parse_database_url(database_url(global.db, context.data)).shown + ", backend " +
+            options.backend);
   log_sandbox();
   print_address(server_url(options.address, server.port()), watched ? &*watched : nullptr,
                 server.access_control(), global.json);
@@ -175,53 +149,12 @@ void serve(const ServeOptions& options, const GlobalOptions& global) {
 
 }  // namespace
 
-void add_serve_command(CLI::App& app, GlobalOptions& global) {
+std::shared_ptr<const ServeOptions> add_serve_command(CLI::App& app, GlobalOptions& global) {
   auto options = std::make_shared<ServeOptions>();
-  ServerAddress& address = options->address;
   CLI::App* command = app.add_subcommand("serve", "Serve the page, the API and live sessions");
-  command->add_option("--host", address.host, "Address to listen on; others than loopback need users and TLS")
-      ->capture_default_str();
-  command->add_option("--port", address.port, "Port; 0 takes any free one")->capture_default_str();
-  command->add_option("--public-name", address.public_names,
-                      "Name by which others reach this machine; several may be given");
-  command->add_option("--tls-cert", address.certificate_chain,
-                      "The server's certificate with its chain, PEM");
-  command->add_option("--tls-key", address.key, "Its key, PEM");
-  command->add_option("--trusted-proxy", address.trusted_proxies,
-                      "Proxy in front of this server, ADDRESS[/BITS], whose Forwarded or X-Forwarded-For and "
-                      "-Proto say who asks; several may be given");
-  command->add_flag("--insecure", address.insecure,
-                    "Let others log in without TLS, where something else encrypts");
-  command->add_option("--openigtlink", options->openigtlink,
-                      "[HOST:]PORT where 3D Slicer and others can watch the newest session; HOST as --host");
-  command->add_option("--web", options->web, "Folder of the built page");
-  command->add_option("--backend", options->backend, "auto, cpu, opencl or opencl:N")->capture_default_str();
-  command->add_option("--device", options->device, "Device of sessions that name none")
-      ->check(CLI::IsMember(device_names()))
-      ->capture_default_str();
-  command->add_option("--realtime", options->realtime, "Real-time priority of the haptic loop")
-      ->check(CLI::IsMember({"require", "try", "off"}))
-      ->capture_default_str();
-  command
-      ->add_option("--keep-sessions-days", options->keep_sessions_days,
-                   "Delete sessions that are older; default: never")
-      ->check(CLI::Range(1, max_days));
-  command
-      ->add_option("--keep-deleted-days", options->keep_deleted_days,
-                   "Keep deleted sessions for so long, so that they can be restored; 0: not at all")
-      ->check(CLI::Range(0, max_days))
-      ->capture_default_str();
-  command
-      ->add_option("--delete-at-once-percent", options->delete_at_once_percent,
-                   "Delete nothing by age while more than this share would go at once; 100: no limit")
-      ->check(CLI::Range(1, 100))
-      ->capture_default_str();
-  command
-      ->add_option("--end-unstarted-minutes", options->end_unstarted_minutes,
-                   "End sessions that nobody has started for so long; 0: never")
-      ->check(CLI::Range(0, max_minutes))
-      ->capture_default_str();
+  add_serve_options(*command, *options);
   command->callback([options, &global] { serve(*options, global); });
+  return options;
 }
 
 }  // namespace ream::app

@@ -17,6 +17,9 @@ class BadInput : public CommandLine {
 
 TEST_F(BadInput, OptionsThatAreNotThereAreUsage) {
   refuse(2, "--bogus", {"simulate", "--case", "demo", "--script", "demo", "--bogus"});
+  refuse(2, "did you mean '--case'?", {"simulate", "--cse", "demo"});
+  refuse(2, "did you mean 'simulate'?", {"simualte", "--case", "demo"});
+  refuse(2, R"({"error":"no option '--cse' of ream simulate)", {"--json", "simulate", "--cse", "demo"});
   refuse(2, "--case", {"simulate", "--script", "demo"});
   refuse(2, "subcommand", {});
   refuse(2, "--format", {"phantom", "--out", "p", "--format", "jpeg"});

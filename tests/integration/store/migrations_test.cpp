@@ -28,6 +28,26 @@ TYPED_TEST(MigrationsTest, RunOnceEach) {
   EXPECT_EQ(this->count_steps(), steps);
 }
 
+TYPED_TEST(MigrationsTest, AreCountedWithoutRunningThem) {
+  EXPECT_EQ(missing_migrations(this->url()), 0u);
+  this->database().run([](Sql& sql) { sql << "DELETE FROM migrations WHERE number = 1"; });
+  EXPECT_EQ(missing_migrations(this->url()), 1u);
+  EXPECT_EQ(missing_migrations(this->url()), 1u);
+  this->database().run([](Sql& sql) { sql << "DROP TABLE migrations"; });
+  EXPECT_EQ(missing_migrations(this->url()), migrations().size());
+  this->database().run([](Sql& sql) {
+    sql << "CREATE TABLE migrations (number BIGINT PRIMARY KEY, name TEXT NOT NULL)";
+    sql << "INSERT INTO migrations (number, name) VALUES (9999, 'later')";
+  });
+  test::expect_error(ErrorKind::conflict, "9999", [&] { missing_migrations(this->url()); });
+}
+
+TEST(Migrations, AFileThatIsNotThereIsNotMade) {
+  const test::TemporaryFolder folder;
+  EXPECT_EQ(missing_migrations("sqlite:" + (folder.path() / "ream.db").string()), migrations().size());
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "ream.db"));
+}
+
 TYPED_TEST(MigrationsTest, RunAStepThatCameLater) {
   this->database().run([](Sql& sql) {
     sql << "DROP TABLE session_records";
