@@ -43,7 +43,8 @@ json json_in(const net::Request& request) {
   }
 }
 
-[[noreturn]] void refuse(const std::string& what, const std::vector<net::FieldError>& faults) {
+[[noreturn]] void refuse(const std::string& what, std::vector<net::FieldError> faults) {
+  if (faults.size() > JsonSchema::max_faults) faults.resize(JsonSchema::max_faults);
   std::string detail = what + " cannot be used: ";
   for (size_t i = 0; i < faults.size(); ++i) detail += (i > 0 ? "; " : "") + faults[i].detail;
   throw net::RequestError(422, detail, faults);

@@ -1,4 +1,5 @@
 #include "api/server.hpp"
+#include "core/remove_tree.hpp"
 
 #include <contract.hpp>
 
@@ -80,18 +81,18 @@ Server::Server(ServerOptions options)
       listener_(router_, options.listen),
       readiness_(*engine_, options.make_demo_case),
       watch_(sessions_, *feed_),
-      unused_("sessions that nobody starts and uploads that nobody goes on with", [this] {
-        sessions_.end_unstarted();
-        uploads_.remove_idle();
-        return std::chrono::seconds(5);
-      }) {}
+      unused_("sessions that nobody starts or that stay paused, and uploads that nobody goes on with",
+              [this] {
+                sessions_.end_unused();
+                uploads_.remove_idle();
+                return std::chrono::seconds(5);
+              }) {}
 
 Server::~Server() { stop(); }
 
 void Server::start() {
   // What an earlier server did not come to send.
-  std::error_code none;
-  std::filesystem::remove_all(services_.temporary_folder, none);
+  remove_tree(services_.temporary_folder);
   listener_.start();
   retention_.begin();
   unused_.start();

@@ -25,7 +25,11 @@ bool is_ignored(int signal) {
 
 void catch_interrupts(std::chrono::seconds timeout) {
   timeout_s = static_cast<sig_atomic_t>(timeout.count());
-  for (const int signal : {SIGINT, SIGTERM, SIGQUIT}) keep_handler(signal, remember_signal);
+  // All that would end the process at once, with force, and that nobody here has another use for.
+  for (const int signal :
+       {SIGINT, SIGTERM, SIGQUIT, SIGUSR1, SIGUSR2, SIGVTALRM, SIGPROF, SIGIO, SIGPWR, SIGSTKFLT})
+    keep_handler(signal, remember_signal);
+  for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) keep_handler(signal, remember_signal);
   keep_handler(SIGHUP, is_ignored(SIGHUP) ? SIG_IGN : remember_signal);
 }
 

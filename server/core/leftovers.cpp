@@ -11,6 +11,7 @@
 
 #include "core/data_folder.hpp"
 #include "core/file_lock.hpp"
+#include "core/remove_tree.hpp"
 
 namespace ream {
 namespace fs = std::filesystem;
@@ -31,7 +32,7 @@ size_t remove_from(const fs::path& folder, const IsLeftover& is_leftover) {
   size_t removed = 0;
   for (const fs::path& path : found) {
     const auto abandoned = FileLock::attempt_existing(path);
-    if (abandoned && fs::remove_all(path, failed) > 0 && !failed) ++removed;
+    if (abandoned && remove_tree(path)) ++removed;
   }
   return removed;
 }

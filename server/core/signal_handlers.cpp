@@ -11,7 +11,7 @@
 namespace ream {
 namespace {
 
-constexpr int signals = 32;  ///< those with names; real-time signals are nobody's here
+constexpr int signals = 65;  ///< Linux numbers them from 1 to 64
 /// A handler may call a device, and the kernel puts the processor's whole state beneath it.
 constexpr size_t min_stack_bytes = 65536;
 

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/remove_tree.hpp"
 
 namespace ream {
 namespace fs = std::filesystem;
@@ -39,9 +40,6 @@ TemporaryFolder::TemporaryFolder(const fs::path& beside) {
   lock_ = FileLock::attempt_existing(path_);
 }
 
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
+TemporaryFolder::~TemporaryFolder() { remove_tree(path_); }
 
 }  // namespace ream

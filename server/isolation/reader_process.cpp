@@ -4,6 +4,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/statvfs.h>
 #include <sys/sysinfo.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -20,6 +21,7 @@
 #include "core/error.hpp"
 #include "core/file_descriptor.hpp"
 #include "core/json.hpp"
+#include "core/remove_tree.hpp"
 #include "core/text.hpp"
 #include "isolation/reader_service.hpp"
 
@@ -30,13 +32,10 @@ namespace {
 
 constexpr int look_every_ms = 100;
 constexpr auto ending_takes = std::chrono::seconds(2);
-constexpr size_t max_request_bytes = 32768, max_answer_bytes = 16 << 20, max_words = 1000;
+constexpr int max_output_depth = 32;
+constexpr size_t max_request_bytes = 32768, max_answer_bytes = 1 << 20, max_words = 1000;
 
-fs::path program_of(const ReaderJob& job) {
-  if (!job.program.empty()) return job.program;
-  std::error_code failed;
-  return fs::read_symlink("/proc/self/exe", failed).parent_path() / "ream-reader";
-}
+fs::path program_of(const ReaderJob& job) { return job.program.empty() ? reader_program() : job.program; }
 
 Error cannot_start(const std::string& why) {
   return {ErrorKind::io, "cannot start the program that reads files from outside: " + why};
@@ -160,11 +159,14 @@ Error unreadable(const ReaderJob& job, const std::string& why) {
 /// What the reader says, line by line, until its answer or its end (null).
 class Answers {
  public:
-  Answers(const FileDescriptor& from, const Progress& progress) : from_(from), progress_(progress) {}
+  /// `output`: the folder that the reader writes to.
+  Answers(const FileDescriptor& from, const FileDescriptor& output, const Progress& progress)
+      : from_(from), output_(output), progress_(progress) {}
 
   json wait(const ReaderJob& job) {
     const auto latest = std::chrono::steady_clock::now() + job.limits.time;
     while (std::chrono::steady_clock::now() < latest) {
+      require_space(job);
       pollfd waiting{from_.get(), POLLIN, 0};
       if (::poll(&waiting, 1, look_every_ms) <= 0) {
         progress_(share_, step_);
@@ -183,6 +185,14 @@ class Answers {
   }
 
  private:
+  void require_space(const ReaderJob& job) const {
+    struct statvfs system {};
+    if (::fstatvfs(output_.get(), &system) != 0) return;
+    if (uint64_t{system.f_bavail} * system.f_frsize < job.limits.least_free_bytes)
+      throw Error(ErrorKind::io,
+                  job.input.string() + " cannot be read: the disk for temporary files is nearly full");
+  }
+
   json whole_lines() {
     for (size_t end; (end = text_.find('\n')) != std::string::npos;) {
       const json message = parsed(text_.substr(0, end));
@@ -197,7 +207,7 @@ class Answers {
     return {};
   }
 
-  const FileDescriptor& from_;
+  const FileDescriptor &from_, &output_;
   const Progress& progress_;
   std::string text_, step_ = "reading";
   double share_ = 0.0;
@@ -220,9 +230,11 @@ Error what_ended_it(const ReaderJob& job, int status) {
 /// to its input, which it makes before it is closed off, are taken away.
 void check_output(const fs::path& folder) {
   std::error_code failed;
-  fs::remove_all(folder / "input", failed);
+  remove_tree(folder / "input");
   for (fs::recursive_directory_iterator next(folder, failed), end; !failed && next != end;
        next.increment(failed)) {
+    if (next.depth() > max_output_depth)
+      throw Error(ErrorKind::io, "the reader wrote folders that lie too deep");
     const fs::file_type type = next->symlink_status(failed).type();
     if (!failed && type != fs::file_type::regular && type != fs::file_type::directory)
       throw Error(ErrorKind::io, "the reader wrote something that is neither a file nor a folder");
@@ -239,6 +251,13 @@ ErrorKind kind_of(const json& message) {
 }
 
 }  // namespace
+
+fs::path reader_program() {
+  std::error_code failed;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", failed).parent_path();
+  const fs::path installed = folder.parent_path() / "lib/ream/ream-reader";
+  return folder.filename() == "bin" && fs::exists(installed, failed) ? installed : folder / "ream-reader";
+}
 
 fs::path ReaderResult::file(const std::string& name) const {
   const fs::path path = folder_->path() / name;
@@ -281,7 +300,7 @@ ReaderResult read_isolated(const ReaderJob& job, const Progress& progress) {
   send_request(requests.in, job);  // a pipe takes it whole
   requests = {{}, {}};
   answers.in = {};
-  const json message = Answers(answers.out, progress).wait(job);
+  const json message = Answers(answers.out, output, progress).wait(job);
   if (const auto error = message.find("error"); error != message.end() && error->is_string())
     throw Error(kind_of(message), one_line(error->get<std::string>(), max_words));
   if (!message.contains("answer")) throw what_ended_it(job, child.ended(ending_takes));

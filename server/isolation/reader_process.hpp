@@ -17,17 +17,23 @@ namespace ream::isolation {
 /// Also a reader that only sleeps ends after this; one that works is ended by its processor time long before.
 inline constexpr std::chrono::hours max_reading_time{2};
 
+/// The program ream-reader: beside the program that runs, or where that is installed in bin, in lib/ream
+/// beside bin. It may not be there.
+std::filesystem::path reader_program();
+
 /// What one run of ream-reader may use.
 struct ReaderLimits {
   uint64_t memory_bytes = 0;  ///< of address space; 0: three quarters of what this machine has free
   uint64_t file_bytes = uint64_t{16} << 30;  ///< of each file that it writes
   unsigned processor_s = 1800;
   std::chrono::milliseconds time = max_reading_time;
+  /// Of the disk that it writes to: recordings lie there, too.
+  uint64_t least_free_bytes = uint64_t{1} << 30;
 };
 
 /// A file from outside, and what is to be read out of it.
 struct ReaderJob {
-  std::filesystem::path program = {};  ///< empty: ream-reader, beside the program that runs
+  std::filesystem::path program = {};  ///< empty: reader_program()
   std::string task;                    ///< a name that it knows
   std::filesystem::path input;         ///< a file or a folder
   bool with_folder = false;  ///< the file's folder may be read too: its header names other files there

@@ -8,6 +8,7 @@
 #include "core/file.hpp"
 #include "core/log.hpp"
 #include "core/new_id.hpp"
+#include "core/remove_tree.hpp"
 #include "core/signal_handlers.hpp"
 #include "core/thread_pool.hpp"
 
@@ -18,11 +19,6 @@ namespace {
 constexpr size_t max_waiting = 16;
 /// Progress is announced no more often than this.
 constexpr int64_t announce_interval_ns = 500'000'000;
-
-void remove_quietly(const fs::path& path) {
-  std::error_code ignored;
-  fs::remove_all(path, ignored);
-}
 
 std::string about(const JobOrder& order) {
   if (!order.case_id.empty()) return "the work on case '" + order.case_id + "'";
@@ -53,7 +49,7 @@ std::string to_text(JobState state) {
 bool is_open(JobState state) { return state == JobState::waiting || state == JobState::running; }
 
 JobService::JobService(JobOptions options) : options_(std::move(options)) {
-  if (!options_.folder.empty()) remove_quietly(options_.folder);
+  if (!options_.folder.empty()) remove_tree(options_.folder);
   thread_ = start_thread([this] { work(); });
 }
 
@@ -103,7 +99,7 @@ std::optional<JobRecord> JobService::open_on_session(const std::string& kind,
 /// With the mutex held.
 void JobService::forget_surplus() {
   while (jobs_.size() > options_.max_kept && !is_open(jobs_.front()->record.state)) {
-    if (jobs_.front()->record.result) remove_quietly(folder_of(*jobs_.front()));
+    if (jobs_.front()->record.result) remove_tree(folder_of(*jobs_.front()));
     jobs_.pop_front();
   }
 }
@@ -159,7 +155,7 @@ JobRecord JobService::submit_file(const JobOrder& order, FileWork work) {
       const std::lock_guard lock(mutex_);
       record.result = JobResult{folder / made.name, made.media_type, fs::file_size(folder / made.name)};
     } catch (...) {
-      remove_quietly(folder);
+      remove_tree(folder);
       throw;
     }
   };
@@ -204,7 +200,7 @@ void JobService::remove_old_results() {
   const std::lock_guard lock(mutex_);
   for (const auto& job : jobs_)
     if (job->record.result && job->record.ended_utc < oldest) {
-      remove_quietly(folder_of(*job));
+      remove_tree(folder_of(*job));
       job->record.result.reset();
     }
 }

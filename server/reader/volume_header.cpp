@@ -25,6 +25,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr size_t max_header_bytes = 4 << 20;
+/// MetaIO reads lines into buffers of fixed lengths; no header needs more than this.
+constexpr size_t max_meta_line_bytes = 450, max_meta_key_bytes = 64;
 constexpr double max_deflation = 1100.0;  // zlib's limit is 1032
 constexpr double nifti_axis_tolerance = 1e-3, same_size_tolerance = 0.01;
 
@@ -78,7 +80,7 @@ fs::path beside(const fs::path& path, const std::string& name) {
     refuse(path, "its voxels must be in one file beside it, not in '" + name.substr(0, 100) + "'");
   const fs::path holder = path.parent_path() / name;
   std::error_code failed;
-  if (!fs::is_regular_file(holder, failed))
+  if (!fs::is_regular_file(fs::symlink_status(holder, failed)))
     throw Error(ErrorKind::not_found, "no such file: " + (path.parent_path() / name.substr(0, 100)).string() +
                                           ", named by " + path.string());
   return holder;
@@ -287,7 +289,7 @@ Claims nifti_claims(const NiftiHeader& header, const fs::path& path) {
   claims.before = header.at<float>(108);
   if (!(claims.before >= 348.0 && claims.before <= 1e6))
     refuse(path, "its header claims that the voxels begin at byte " + number_text(header.at<float>(108)));
-  claims.packed = path.extension() == ".gz";
+  claims.packed = lower(path.extension().string()) == ".gz";
   return claims;
 }
 
@@ -308,6 +310,26 @@ void refuse_second_names(const fs::path& path, const std::string& line, const st
     refuse(path, "its header has a line '" + line.substr(0, 60) + "', which may name another file");
 }
 
+/// The libraries take a control character or the first of ':' and '=' for the end of a key, and go on reading
+/// in the middle of a line that is longer than they expect. What they could take for two lines, or another
+/// key than is meant, is refused, so that a header says the same to them and here. `separator`: '=' for
+/// MetaImage, ':' for NRRD.
+void check_line(const fs::path& path, const std::string& line, char separator, bool first) {
+  const auto shown = [&] { return "a line '" + one_line(line.substr(0, 60), 60) + "'"; };
+  if (std::any_of(line.begin(), line.end(),
+                  [](char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\t'; }))
+    refuse(path, "its header has " + shown() + " with control characters");
+  const size_t end = line.find_first_of(":=");
+  if (separator == '=') {
+    const bool blank = line.find_first_not_of(" \t") == std::string::npos;
+    if (line.size() > max_meta_line_bytes) refuse(path, "its header has " + shown() + ", which is too long");
+    if (!blank && (end == std::string::npos || line[end] != '=' || end > max_meta_key_bytes))
+      refuse(path, "its header has " + shown() + ", which is no 'key = value'");
+  } else if (end == std::string::npos && !first && !line.starts_with('#')) {
+    refuse_second_names(path, line, "");
+  }
+}
+
 /// The lines `key: value` or `key = value` of a text header up to the empty one or the one of `last_key`.
 /// Those of a NRRD file (':') are in any case.
 TextHeader text_header(const fs::path& path, char separator, const std::string& last_key) {
@@ -326,6 +348,7 @@ TextHeader text_header(const fs::path& path, char separator, const std::string& 
       header.end = start;
       break;
     }
+    check_line(path, line, separator, header.lines.empty());
     header.lines.push_back(line);
     const size_t colon = line.find(separator);
     if (colon == std::string::npos) continue;
@@ -342,6 +365,8 @@ TextHeader text_header(const fs::path& path, char separator, const std::string& 
     header.end = start;
     break;
   }
+  if (header.end == 0 && text.size() == max_header_bytes)
+    refuse(path, "its header has no end within " + std::to_string(max_header_bytes >> 20) + " MB");
   return header;
 }
 
@@ -353,7 +378,7 @@ bool says_yes(const std::string& word) {
 }  // namespace
 
 VolumeHeader::VolumeHeader(const fs::path& path) : path_(path), readable_(path), voxels_(path) {
-  const std::string name = path.filename().string();
+  const std::string name = lower(path.filename().string());
   if (name.ends_with(".nii") || name.ends_with(".nii.gz")) {
     format_ = Format::nifti;
     check_nifti();
@@ -448,7 +473,7 @@ void VolumeHeader::check_complete(uint64_t image_bytes) const {
       check_deflated(voxels_, before, image_bytes);
     else if (fs::file_size(voxels_) < before + image_bytes)
       cut_short(voxels_);
-  } else if (path_.extension() == ".nrrd" && end_ > 0) {
+  } else if (lower(path_.extension().string()) == ".nrrd" && end_ > 0) {
     for (const char* elsewhere : {"datafile", "lineskip", "byteskip"})
       if (fields_.contains(elsewhere)) return;
     const bool packed = field("encoding").find("gz") != std::string::npos;
@@ -457,7 +482,7 @@ void VolumeHeader::check_complete(uint64_t image_bytes) const {
 }
 
 uint64_t VolumeHeader::raw_begin(uint64_t image_bytes) const {
-  const std::string ending = path_.extension();
+  const std::string ending = lower(path_.extension().string());
   bool raw = voxels_ == path_ && end_ + image_bytes == fs::file_size(path_);
   if (ending == ".nrrd")
     raw = raw && field("encoding") == "raw" && !fields_.contains("lineskip") &&

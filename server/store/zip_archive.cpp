@@ -9,6 +9,7 @@
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <set>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -20,6 +21,8 @@ namespace fs = std::filesystem;
 
 constexpr size_t piece_bytes = 1u << 20;
 constexpr double progress_step = 0.002;
+/// Longer and deeper than any folder of slices or sessions.
+constexpr size_t max_name_bytes = 1024, max_name_parts = 16;
 
 struct Discard {
   void operator()(zip_t* archive) const { zip_discard(archive); }
@@ -69,13 +72,23 @@ std::unique_ptr<zip_t, Discard> open_to_read(const fs::path& path) {
 }
 
 bool stays_inside(const std::string& name) {
-  if (name.empty() || name.find('\\') != std::string::npos || name.find('\0') != std::string::npos)
+  if (name.empty() || name.size() > max_name_bytes || name.find('\\') != std::string::npos ||
+      name.find('\0') != std::string::npos)
     return false;
   const fs::path path(name);
   if (path.is_absolute()) return false;
+  size_t parts = 0;
   for (const fs::path& part : path)
-    if (part == ".." || part == ".") return false;
+    if (part == ".." || part == "." || ++parts > max_name_parts) return false;
   return true;
+}
+
+/// Folders that an entry needs and that were not there for the ones before it. Each costs as much as a file.
+size_t new_folders(const std::string& name, std::set<std::string>& folders) {
+  size_t made = 0;
+  for (size_t slash = name.find('/'); slash != std::string::npos; slash = name.find('/', slash + 1))
+    made += folders.insert(name.substr(0, slash)).second ? 1 : 0;
+  return made;
 }
 
 void write_entry(zip_t* archive, const ArchiveEntry& entry, const fs::path& zip) {
@@ -108,13 +121,19 @@ std::vector<std::string> checked_names(zip_t* archive, const fs::path& zip, cons
                                               " files, more than may be unpacked (" +
                                               std::to_string(limits.entries) + ")");
   std::vector<std::string> names;
-  uint64_t total = 0;
+  std::set<std::string> folders;
+  uint64_t total = 0, places = count;
   for (zip_uint64_t i = 0; i < count; ++i) {
     const char* given = zip_get_name(archive, i, 0);
     names.emplace_back(given == nullptr ? "" : given);
     const std::string& name = names.back();
     if (!stays_inside(name))
-      throw unusable(zip, name, "has a name that leads out of the archive, and may not be unpacked");
+      throw unusable(zip, name,
+                     "has a name that leads out of the archive or too deep, and may not be unpacked");
+    if (places += new_folders(name, folders); places > limits.entries)
+      throw unusable(zip, name,
+                     "is in one folder too many: more files and folders than may be unpacked (" +
+                         std::to_string(limits.entries) + ")");
     zip_uint8_t system = 0;
     zip_uint32_t attributes = 0;
     zip_file_get_external_attributes(archive, i, 0, &system, &attributes);

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/new_id.hpp"
+#include "core/remove_tree.hpp"
 #include "core/text.hpp"
 #include "ct/build/ct_workspace.hpp"
 #include "ct/build/import.hpp"
@@ -62,10 +63,7 @@ ct::HuVolume read_upload(const fs::path& file, const std::string& series_uid, co
 class TakenUpload {
  public:
   explicit TakenUpload(fs::path file) : file_(std::move(file)) {}
-  ~TakenUpload() {
-    std::error_code ignored;
-    fs::remove_all(file_.parent_path(), ignored);
-  }
+  ~TakenUpload() { remove_tree(file_.parent_path()); }
   TakenUpload(const TakenUpload&) = delete;
   TakenUpload& operator=(const TakenUpload&) = delete;
   const fs::path& file() const { return file_; }

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/new_id.hpp"
+#include "core/remove_tree.hpp"
 #include "net/problem.hpp"
 
 namespace ream::workup {
@@ -34,8 +35,7 @@ void check_name(const std::string& name) {
 }  // namespace
 
 UploadStore::UploadStore(fs::path folder, UploadLimits limits) : folder_(std::move(folder)), limits_(limits) {
-  std::error_code ignored;
-  if (!folder_.empty()) fs::remove_all(folder_, ignored);
+  if (!folder_.empty()) remove_tree(folder_);
 }
 
 fs::path UploadStore::file_of(const Upload& upload) const { return folder_ / upload.id / upload.name; }
@@ -103,8 +103,7 @@ void UploadStore::remove(const std::string& id) {
   const std::lock_guard lock(mutex_);
   const Upload upload = find(id).upload;
   uploads_.erase(id);
-  std::error_code ignored;
-  fs::remove_all(folder_ / upload.id, ignored);
+  remove_tree(folder_ / upload.id);
 }
 
 fs::path UploadStore::take(const std::string& id) {
@@ -123,8 +122,7 @@ void UploadStore::remove_idle(Clock::time_point now) {
   std::erase_if(uploads_, [&](const auto& held) {
     const Entry& entry = held.second;
     if (now - entry.used < limits_.idle) return false;
-    std::error_code ignored;
-    fs::remove_all(folder_ / entry.upload.id, ignored);
+    remove_tree(folder_ / entry.upload.id);
     return true;
   });
 }

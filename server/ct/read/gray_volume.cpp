@@ -57,8 +57,8 @@ size_t layer_voxels(const Vec3i& dims) {
 
 struct GrayVolume::Contents {
   explicit Contents(isolation::ReaderResult&& result) : read(std::move(result)) {
-    place = volume_from(read.answer()["volume"], true);
-    gray = scale_from(read.answer()["gray"]);
+    place = volume_from(read.answer().at("volume"), true);
+    gray = scale_from(read.answer().at("gray"));
     values = opened(read.file("values"));
     if (!read.answer().contains("given")) {
       read.require_bytes("values", sizeof(uint16_t) * place.voxel_count());

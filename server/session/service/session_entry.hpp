@@ -13,6 +13,8 @@ struct SessionService::Entry {
   std::unique_ptr<RunningSession> running;
   std::mutex changing;  ///< one start, pause or stop at a time
   const std::chrono::steady_clock::time_point made = std::chrono::steady_clock::now();
+  /// When end_unused() first found it paused, without a break since; under `changing`.
+  std::optional<std::chrono::steady_clock::time_point> paused_since;
 
   SessionRecord record() const { return {request(), running->status()}; }
   bool live() const { return is_live(running->status().state); }

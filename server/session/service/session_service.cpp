@@ -225,19 +225,26 @@ std::unique_ptr<net::WebSocketSession> SessionService::connect_device(const std:
   return std::make_unique<ViewerSocket>(std::move(entry), std::move(inner));
 }
 
-void SessionService::end_unstarted(std::chrono::steady_clock::time_point now) {
-  if (!limits_.unstarted) return;
-  std::vector<std::shared_ptr<Entry>> old;
+void SessionService::end_unused(std::chrono::steady_clock::time_point now) {
+  std::vector<std::shared_ptr<Entry>> all;
   {
     const std::lock_guard lock(mutex_);
-    std::copy_if(entries_.begin(), entries_.end(), std::back_inserter(old),
-                 [&](const auto& entry) { return now - entry->made >= *limits_.unstarted; });
+    all = entries_;
   }
-  for (const auto& entry : old) {
+  for (const auto& entry : all) {
     const std::lock_guard changing(entry->changing);
-    if (entry->running->status().state != SessionState::created) continue;
+    const SessionState state = entry->running->status().state;
+    if (state != SessionState::paused)
+      entry->paused_since.reset();
+    else if (!entry->paused_since)
+      entry->paused_since = now;
+    const bool unstarted =
+        limits_.unstarted && state == SessionState::created && now - entry->made >= *limits_.unstarted;
+    const bool left = limits_.paused && entry->paused_since && now - *entry->paused_since >= *limits_.paused;
+    if (!unstarted && !left) continue;
     entry->running->stop();
-    log::info("session " + entry->id() + " was ended: nobody started it");
+    log::info("session " + entry->id() +
+              " was ended: " + (unstarted ? "nobody started it" : "it was paused for too long"));
   }
 }
 

@@ -24,6 +24,8 @@ struct SessionLimits {
   size_t kept = 16;       ///< ended ones that can still be looked at; the oldest go first
   size_t of_trainee = 2;  ///< live ones that one trainee may have made
   std::optional<std::chrono::minutes> unstarted{10};  ///< what nobody starts for so long ends; none: never
+  /// What is paused for so long without a break, by a person or without its device, ends; none: never.
+  std::optional<std::chrono::minutes> paused{30};
 };
 
 /// Owns the sessions of this server and knows all that lie in the data folder. Thread-safe. Unknown ids throw
@@ -94,8 +96,9 @@ class SessionService {
   /// session is only in its folder.
   std::unique_ptr<net::WebSocketSession> connect_device(const std::string& id) const;
 
-  /// Ends those that were made longer ago than SessionLimits::unstarted and never started.
-  void end_unstarted(std::chrono::steady_clock::time_point now = std::chrono::steady_clock::now());
+  /// Ends those that were made longer ago than SessionLimits::unstarted and never started, and those that
+  /// every call has found paused for SessionLimits::paused.
+  void end_unused(std::chrono::steady_clock::time_point now = std::chrono::steady_clock::now());
 
   /// Stops every session that still runs; nothing can be created or started any more. One whose loop stands
   /// still is held to the end of the service, also when it is deleted.

@@ -109,6 +109,15 @@ TEST_F(CrashGuard, ASignalToEndLeavesNoForceAndTheDeviceClosed) {
                                         {SIGINT, "cpu"},
                                         {SIGHUP, "opencl"},
                                         {SIGQUIT, "opencl"},
+                                        {SIGUSR1, "cpu"},
+                                        {SIGUSR2, "opencl"},
+                                        {SIGVTALRM, "cpu"},
+                                        {SIGPROF, "cpu"},
+                                        {SIGIO, "cpu"},
+                                        {SIGPWR, "cpu"},
+                                        {SIGSTKFLT, "cpu"},
+                                        {SIGRTMIN, "cpu"},
+                                        {SIGRTMAX, "opencl"},
                                         {SIGTERM, "opencl"}}) {
     SCOPED_TRACE(std::to_string(signal) + ", " + backend);
     const auto program = start({"signal", "loop", backend});

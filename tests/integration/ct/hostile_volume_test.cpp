@@ -91,9 +91,9 @@ TEST_F(HostileVolume, NoSpellingOfANrrdReadsAFileOfSomebodyElse) {
 TEST_F(HostileVolume, NoSpellingOfAMetaImageReadsAFileOfSomebodyElse) {
   const std::string by_path = secret().string(), upwards = "../private/secret.raw";
   for (const std::string& to : {by_path, upwards, std::string("/proc/self/root") + by_path})
-    for (const char* before :
-         {"", "Element DataFile = LOCAL\n", "elementdatafile = LOCAL\n", "ElementDataFile2 = LOCAL\n",
-          "Comment = ElementDataFile = LOCAL\n", "ElementDataFile : LOCAL\n"}) {
+    for (const char* before : {"", "Element DataFile = LOCAL\n", "elementdatafile = LOCAL\n",
+                               "ElementDataFile2 = LOCAL\n", "Comment = ElementDataFile = LOCAL\n",
+                               "ElementDataFile : LOCAL\n", "\n", "Comment = a\r", "Comment\n"}) {
       expect_kept("a.mha", meta(std::string(before) + "ElementDataFile = " + to));
       expect_kept("a.mhd", meta(std::string(before) + "ElementDataFile = " + to), false);
       expect_kept("a.mhd", meta(std::string(before) + "ElementDataFile = LIST\n" + to), false);

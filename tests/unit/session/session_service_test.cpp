@@ -88,15 +88,34 @@ TEST_F(SessionServiceTest, SessionsThatNobodyStartsEnd) {
   const std::string waits = create(), runs = create();
   service.start(runs);
   const auto now = std::chrono::steady_clock::now();
-  service.end_unstarted(now + std::chrono::minutes(9));
+  service.end_unused(now + std::chrono::minutes(9));
   EXPECT_EQ(service.get(waits).status.state, SessionState::created);
-  service.end_unstarted(now + std::chrono::minutes(11));
+  service.end_unused(now + std::chrono::minutes(11));
   EXPECT_EQ(service.get(waits).status.state, SessionState::stopped);
   EXPECT_EQ(service.get(runs).status.state, SessionState::running);
-  SessionService patient(engine, {3, 2, 2, std::nullopt}, folder.path(), database);
+  SessionService patient(engine, {3, 2, 2, std::nullopt, std::nullopt}, folder.path(), database);
   const std::string kept = patient.create(demo()).request.id;
-  patient.end_unstarted(now + std::chrono::hours(1000));
+  patient.end_unused(now + std::chrono::hours(1000));
   EXPECT_EQ(patient.get(kept).status.state, SessionState::created);
+}
+
+TEST_F(SessionServiceTest, SessionsThatStayPausedEnd) {
+  const std::string left = create(), used = create();
+  service.start(left);
+  service.start(used);
+  service.pause(left);
+  service.pause(used);
+  const auto now = std::chrono::steady_clock::now();
+  service.end_unused(now);
+  service.end_unused(now + std::chrono::minutes(29));
+  service.start(used);
+  service.end_unused(now + std::chrono::minutes(29));
+  service.pause(used);
+  service.end_unused(now + std::chrono::minutes(31));
+  EXPECT_EQ(service.get(left).status.state, SessionState::stopped);
+  EXPECT_EQ(service.get(used).status.state, SessionState::paused) << "not without a break";
+  service.end_unused(now + std::chrono::minutes(62));
+  EXPECT_EQ(service.get(used).status.state, SessionState::stopped);
 }
 
 TEST_F(SessionServiceTest, NoMoreLiveSessionsThanStated) {
