@@ -120,7 +120,7 @@ void Users::remove(const std::string& id) {
 
 User Users::get(const std::string& id) const {
   if (const auto row = table_.find(id)) return user_of(*row);
-  throw Error(ErrorKind::not_found, "no user '" + id + "'; GET /api/v1/users lists them");
+  throw Error(ErrorKind::not_found, "no user '" + id + "'");
 }
 
 std::optional<User> Users::find_by_name(const std::string& name) const {

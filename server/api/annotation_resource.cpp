@@ -24,6 +24,8 @@ net::Response annotate(const Services& services, const net::Request& request) {
   session::NewAnnotation note{body.at("words"), text_in(body, "author"), optional_in<double>(body, "at_s"),
                               point_in(body, "place_mm")};
   const std::string& id = id_of(request);
+  // Who is logged in signs by that name: no other can be given.
+  if (!request.caller.user_id.empty()) note.author = request.caller.name;
   // The remark goes into the recording, which others read: who takes part in a study signs by code.
   if (const session::SessionRequest session = services.sessions.get(id).request;
       !session.participant.empty() && !request.caller.user_id.empty() &&

@@ -68,7 +68,7 @@ net::Response list_jobs(const Services& services, const net::Request& request) {
 jobs::JobRecord seen_job(const Services& services, const net::Request& request) {
   jobs::JobRecord job = services.jobs.get(id_of(request));
   if (!may_see_job(services, request.caller, job))
-    throw Error(ErrorKind::not_found, "no job '" + job.id + "'; GET /api/v1/jobs lists them");
+    throw Error(ErrorKind::not_found, "no job '" + job.id + "'");
   return job;
 }
 

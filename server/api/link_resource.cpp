@@ -60,7 +60,7 @@ net::Response revoke_link(const Services& services, const net::Request& request)
   const auto row = services.access_control.credentials.find(id, CredentialKind::link);
   const std::string maker = maker_for(request.caller);
   if (!row || (!maker.empty() && row->user_id != maker))
-    throw Error(ErrorKind::not_found, "no link '" + id + "'; GET /api/v1/links lists them");
+    throw Error(ErrorKind::not_found, "no link '" + id + "'");
   services.access_control.credentials.revoke(id);
   services.audit(request, "link.revoke", id, row->name);
   return no_content();

@@ -14,7 +14,7 @@ session::Judge ScoreStores::judge_by(const std::string& rubric, const std::strin
   judge.rubric_id = id;
   const std::vector<std::string> known = rubrics.ids();
   if (std::find(known.begin(), known.end(), id) == known.end())
-    throw Error(ErrorKind::not_found, "no rubric '" + id + "'; GET /api/v1/rubrics lists them");
+    throw Error(ErrorKind::not_found, "no rubric '" + id + "'");
   judge.rubric = at == std::string::npos ? rubrics.get(id) : rubrics.get(id, std::stoi(words.substr(at + 1)));
   if (!benchmark.empty())
     judge.benchmark = std::make_shared<const score::Benchmark>(benchmarks.get(benchmark).benchmark);

@@ -65,7 +65,7 @@ void take_study(const Services& services, const net::Caller& caller, session::Se
       throw net::RequestError(422, "'case' is missing; only a study knows which case is next",
                               {{"#/case", "is missing"}});
     if (case_::is_two_plates(wanted.case_id) && !access::is_operator(caller.role))
-      throw Error(ErrorKind::not_found, "no case '" + wanted.case_id + "'; GET /api/v1/cases lists them");
+      throw Error(ErrorKind::not_found, "no case '" + wanted.case_id + "'");
     return;
   }
   if (!wanted.device.empty() || !wanted.script.empty() || !wanted.device_profile.empty() ||

@@ -71,7 +71,7 @@ net::Response revoke_token(const Services& services, const net::Request& request
   const auto row = services.access_control.credentials.find(id, CredentialKind::token);
   const bool own = row && !row->user_id.empty() && row->user_id == request.caller.user_id;
   if (!row || (!own && request.caller.role != "operator"))
-    throw Error(ErrorKind::not_found, "no token '" + id + "'; GET /api/v1/tokens lists them");
+    throw Error(ErrorKind::not_found, "no token '" + id + "'");
   services.access_control.credentials.revoke(id);
   services.audit(request, "token.revoke", id, row->name);
   return no_content();

@@ -41,7 +41,7 @@ std::string counted_for(const net::Caller& caller) {
 }
 
 void refuse_unseen(const std::string& id) {
-  throw Error(ErrorKind::not_found, "no session '" + id + "'; GET /api/v1/sessions lists them");
+  throw Error(ErrorKind::not_found, "no session '" + id + "'");
 }
 
 }  // namespace ream::api

@@ -165,7 +165,7 @@ JobRecord JobService::submit_file(const JobOrder& order, FileWork work) {
 std::shared_ptr<JobService::Job> JobService::find(const std::string& id) const {
   for (const auto& job : jobs_)
     if (job->record.id == id) return job;
-  throw Error(ErrorKind::not_found, "no job '" + id + "'; GET /api/v1/jobs lists them");
+  throw Error(ErrorKind::not_found, "no job '" + id + "'");
 }
 
 JobRecord JobService::get(const std::string& id) const {

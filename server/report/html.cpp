@@ -130,7 +130,7 @@ std::string metrics(const Report& report) {
   std::string content = text_element("h2", "Metrics");
   for (const MetricTable& each : report.tables) content += table(each);
   if (!report.missing.empty())
-    content += text_element("h3", "What cannot be said") + facts(report.missing, "facts wide");
+    content += text_element("h3", "Not available") + facts(report.missing, "facts wide");
   return element("section", content);
 }
 

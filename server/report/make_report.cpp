@@ -39,7 +39,9 @@ std::vector<Fact> facts_of(const Material& m) {
   add(facts, "Plan", m.plan_words);
   add(facts, "Reamer", s.reamer);
   add(facts, "Guide", s.guide);
-  add(facts, "Held by", s.device + (s.device_profile.empty() ? "" : ", felt through " + s.device_profile));
+  // A hand without limits of its own is that of a page or a script.
+  const bool limited = !s.device_profile.empty() && s.device_profile != "ideal";
+  add(facts, "Input device", s.device + (limited ? ", with the limits of " + s.device_profile : ""));
   add(facts, "Force scale",
       s.force_scale == 1.0 ? "1: the hand feels simulated newtons"
                            : shortest(s.force_scale) + " simulated N for 1 N at the hand");
@@ -85,7 +87,7 @@ void put_benchmark(const Material& m, Report& report) {
     const std::string_view unit = metric ? metric->unit : std::string_view();
     const std::string name = metric ? std::string(metric->name) : result.line->metric;
     reached += result.reached ? 1 : 0;
-    const std::string value = result.value ? with_unit(*result.value, unit) : "not said";
+    const std::string value = result.value ? with_unit(*result.value, unit) : "not available";
     report.benchmark.push_back(
         {name, value + (result.reached ? ", reached (" : ", not reached (") +
                    (result.line->better == score::Better::less ? "at most " : "at least ") +
@@ -133,7 +135,7 @@ std::string mark_word(Mark mark) {
     case Mark::pass: return "pass";
     case Mark::warn: return "warn";
     case Mark::fail: return "fail";
-    case Mark::missing: return "not said";
+    case Mark::missing: return "not available";
     default: return "";
   }
 }

@@ -318,7 +318,7 @@ void PdfPages::metrics() {
   heading("Metrics", 80.0);
   for (const MetricTable& each : report_.tables) table(each);
   if (report_.missing.empty()) return;
-  small_heading("What cannot be said", 20.0);
+  small_heading("Not available", 20.0);
   facts(report_.missing, 1, 250.0);
 }
 

@@ -110,7 +110,7 @@ Chart feed_chart(const TraceSummary& trace, const std::vector<Remark>& remarks) 
 
 Chart depth_chart(const TraceSummary& trace, double planned_depth_mm, const std::vector<Remark>& remarks) {
   Chart chart = timed_chart(trace, remarks);
-  chart.title = "Depth past first contact";
+  chart.title = "Travel of the reamer past first contact";
   chart.y_name = "mm";
   chart.curves.push_back(curve_of(trace, [](const TraceBin& bin) -> std::optional<CurvePoint> {
     if (!bin.depth_mm) return std::nullopt;

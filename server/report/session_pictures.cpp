@@ -93,7 +93,7 @@ Picture after(const ReamedBone& bone, const Directions& d) {
   layers[1].colour = render::cut_bone_colour;
   Picture picture = oblique(bone, layers, d);
   picture.title = "After";
-  picture.caption = fresh.triangles.empty() ? "Nothing was cut." : "What was cut is darker.";
+  picture.caption = fresh.triangles.empty() ? "Nothing was cut." : "The reamed area is dark red.";
   return picture;
 }
 

@@ -39,7 +39,7 @@ fs::path BenchmarkStore::file_of(const std::string& id) const {
   const fs::path file = folder_ / (id + ".json");
   std::error_code failed;
   if (folder_.empty() || !is_name(id) || !fs::is_regular_file(file, failed))
-    throw Error(ErrorKind::not_found, "no benchmark '" + id + "'; GET /api/v1/benchmarks lists them");
+    throw Error(ErrorKind::not_found, "no benchmark '" + id + "'");
   return file;
 }
 

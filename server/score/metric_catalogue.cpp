@@ -41,12 +41,13 @@ constexpr std::string_view half_voxel_volume =
     "exact to half a voxel's thickness over the face; the plan is that of the reamer that was used";
 constexpr std::string_view limits_ours = "limits are engineering judgement";
 constexpr std::string_view clavert =
-    "Clavert 2007 (perforation); the limit of 2 mm and the sizes of peg and keel are ours";
+    "Clavert 2007 (perforation); the limit of 2 mm and the sizes of peg and keel are engineering judgement";
 constexpr std::string_view no_limits = "reported without limits";
 // A distance of exactly nothing is a breach.
 constexpr double barely_mm = 1e-6;
 constexpr std::string_view exact_sum = "an exact sum over ticks";
-constexpr std::string_view thesis = "52 N of the thesis; factors 2/3 to 4/3, 1.5 and 2 are ours";
+constexpr std::string_view thesis =
+    "52 N: Faieghi 2018; factors 2/3 to 4/3, 1.5 and 2 are engineering judgement";
 constexpr std::string_view time_and_motion = "OSATS, time and motion";
 constexpr std::string_view balasubramanian =
     "Balasubramanian 2015, of tip speed at 100 Hz; tested by its authors for discrete movements only";
@@ -216,17 +217,18 @@ constexpr Metric catalogue[] = {
      "Seating planned less seating achieved; 0 where that is more.", "engineering judgement", judgement,
      limits_ours, bone, reamed_bone, percent_range, at_most(5.0, 15.0)},
     {"congruity_mm", "Congruity", "mm",
-     "Mean distance of the reamed surface from the sphere that fits it best; not said where less than a "
-     "tenth of it still has bone.",
-     "siftdesk: power reamer 0.08 mm (0.07 to 0.19), by hand 0.11", published, limits_ours, bone, reamed_bone,
-     not_negative, at_most(0.2, 0.5)},
+     "Mean distance of the reamed surface from the sphere that fits it best; not available where less than "
+     "a tenth of it still has bone.",
+     "'A 3-dimensional comparison of hand and power reamers in accuracy of glenoid retroversion correction': "
+     "power reamer 0.08 mm (0.07 to 0.19), by hand 0.11",
+     published, limits_ours, bone, reamed_bone, not_negative, at_most(0.2, 0.5)},
     {"fitted_radius_mm", "Radius of the reamed surface", "mm", "Radius of the sphere that fits it best.",
      no_limits, judgement, "uncertain where the footprint is small", bone, reamed_bone, not_negative,
      only_reported},
     {"plate_preserved_percent", "Subchondral plate preserved", "%",
      "Share of the component's footprint in which at least half of the plate is left along the planned axis; "
      "the plate is found by density, or taken as 1.9 mm thick where density does not show it.",
-     "readbyqxmd 29974217: removal increases micromotion (p = 0.043)", published,
+     "PubMed 29974217: removal increases micromotion (p = 0.043)", published,
      "within 2 points of the bone as it was imported in 100 seeded reamings, of the bone that was scanned "
      "within 10; limits are engineering judgement",
      bone, reamed_bone, percent_range, at_least(80.0, 60.0), no_aim, number, "plate_planned_percent"},
@@ -236,8 +238,8 @@ constexpr Metric catalogue[] = {
     {"plate_lost_percent", "Plate lost beyond the plan", "%",
      "Share of the plate's bone that the plan leaves under the planned component, less the share that is "
      "left under the achieved one; 0 where that is more.",
-     "readbyqxmd 29974217: removal increases micromotion (p = 0.043); limits are ours", judgement,
-     limits_ours, bone, reamed_bone, percent_range, at_most(10.0, 40.0)},
+     "PubMed 29974217: removal increases micromotion (p = 0.043); limits are engineering judgement",
+     judgement, limits_ours, bone, reamed_bone, percent_range, at_most(10.0, 40.0)},
     {"plate_thickness_mm", "Subchondral plate thickness", "mm",
      "Median thickness of the plate under the native face, along the planned axis.",
      "Frich 1998: 1.9 mm (1.2 to 2.9)", published,
@@ -282,8 +284,8 @@ constexpr Metric catalogue[] = {
      "Mean simulated thrust along the tool's axis while the reamer cuts with at least 5 N.", thesis,
      judgement, exact_sum, handling, episode, any, between(35.0, 70.0)},
     {"axial_thrust_sd_n", "Thrust, standard deviation", "N", "Standard deviation of the same.",
-     "thesis 5.1: a robot keeps 52 N within 4.3 N", published, compare, handling, episode, not_negative,
-     only_reported, Better::less},
+     "Faieghi 2018, 5.1: a robot keeps 52 N within 4.3 N", published, compare, handling, episode,
+     not_negative, only_reported, Better::less},
     {"thrust_rate_percent_s", "Unevenness of thrust", "%/s",
      "Root mean square rate at which thrust changes, as a share of the mean thrust, over presses with at "
      "least 5 N while the spindle turns in contact: from one mean over 50 ms to the next, without the first "
@@ -306,7 +308,7 @@ constexpr Metric catalogue[] = {
      not_negative, only_reported, Better::less},
     {"apparent_stiffness_n_mm", "Apparent stiffness", "N/mm",
      "Thrust gained a mm of advance while thrust first rises from 1 N to 90 % of 52 N.",
-     "thesis 5.2, apparent machining stiffness", published, compare, handling, episode, positive,
+     "Faieghi 2018, 5.2: apparent machining stiffness", published, compare, handling, episode, positive,
      only_reported},
     {"breakthrough_advance_mm", "Breakthrough, advance", "mm",
      "How far the tool's apex advances along the planned axis from first pressing on cancellous bone (a "
@@ -379,7 +381,7 @@ constexpr Metric catalogue[] = {
     {"extrapolated_time_s", "Time in bone nobody measured", "s",
      "Time of cutting bone whose mean density lies outside 0.41 to 0.72 and 1.30 to 1.61 g/cc, where the "
      "feed laws were measured.",
-     "thesis table 5.1", tested, exact_sum, handling, ticks, not_negative, only_reported},
+     "Faieghi 2018, table 5.1", tested, exact_sum, handling, ticks, not_negative, only_reported},
     {"path_in_contact_mm", "Path in contact", "mm",
      "Length of the way of the tool's apex in the bone's frame while it touches bone.", time_and_motion,
      published, exact_sum, handling, ticks, not_negative, only_reported, Better::less},

@@ -66,11 +66,11 @@ std::optional<Outcome> critical_outcome(Score& score) {
     if (!c.criterion.critical) continue;
     if (c.verdict == Verdict::fail) {
       outcome = Outcome::fail;
-      score.reasons.push_back(name_of(c.criterion.metric) + " fails, which decides whatever the points");
+      score.reasons.push_back(name_of(c.criterion.metric) + " failed; it is a critical criterion");
     } else if (!c.value) {
       if (outcome != Outcome::fail) outcome = Outcome::undecided;
       score.reasons.push_back(name_of(c.criterion.metric) +
-                              " decides, and cannot be said: " + c.missing_reason);
+                              " is a critical criterion and could not be assessed: " + c.missing_reason);
     }
   }
   return outcome;
@@ -79,14 +79,14 @@ std::optional<Outcome> critical_outcome(Score& score) {
 /// What decides by points.
 Outcome points_outcome(const Rubric& rubric, Score& score) {
   if (!score.points) {
-    score.reasons.push_back("the session says " + in_words(score.measured_percent) +
-                            " % of what the rubric weighs, and " + in_words(rubric.min_measured_percent) +
-                            " % are needed");
+    score.reasons.push_back("only " + in_words(score.measured_percent) +
+                            " % of the criteria, by weight, could be assessed; " +
+                            in_words(rubric.min_measured_percent) + " % are needed");
     return Outcome::undecided;
   }
   const bool passed = *score.points >= rounded_points(*rubric.pass_points);
-  score.reasons.push_back(in_words(*score.points) + " points of 100; " + in_words(*rubric.pass_points) +
-                          " are needed");
+  score.reasons.push_back(in_words(*score.points) + " of 100 points; the pass mark is " +
+                          in_words(*rubric.pass_points));
   return passed ? Outcome::pass : Outcome::fail;
 }
 

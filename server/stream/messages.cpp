@@ -1,5 +1,6 @@
 #include "stream/messages.hpp"
 
+#include <array>
 #include <cstring>
 
 #include "stream_generated.h"
@@ -59,6 +60,13 @@ Message hello_message(const HelloInfo& info) {
   const wire::Vec3 spacing = to_wire(info.grid.spacing_mm), entry = to_wire(info.axis_entry_mm),
                    direction = to_wire(info.axis_direction);
   const wire::Pose world_from_grid = to_wire(info.grid.world_from_grid);
+  std::array<wire::Vec3, 3> scapula;
+  std::array<const wire::Vec3*, 3> points{};
+  if (info.scapula) {
+    scapula = {to_wire(info.scapula->glenoid_centre_mm), to_wire(info.scapula->trigonum_mm),
+               to_wire(info.scapula->inferior_angle_mm)};
+    points = {&scapula[0], &scapula[1], &scapula[2]};
+  }
   const auto hello = wire::CreateHello(
       builder, protocol_revision, builder.CreateString(info.session_id), info.server_epoch,
       builder.CreateString(info.case_id), builder.CreateString(info.case_name),
@@ -67,7 +75,8 @@ Message hello_message(const HelloInfo& info) {
       surface::block_edge, builder.CreateVector(tool.positions), builder.CreateVector(tool.indices),
       builder.CreateString(info.tool_name), &entry, &direction, static_cast<float>(info.planned_depth_mm),
       static_cast<float>(info.force_scale), static_cast<float>(info.force_max_n),
-      info.replay_of.empty() ? 0 : builder.CreateString(info.replay_of), info.duration_ticks);
+      info.replay_of.empty() ? 0 : builder.CreateString(info.replay_of), info.duration_ticks, points[0],
+      points[1], points[2]);
   return finished(builder, wire::Body::Hello, hello);
 }
 

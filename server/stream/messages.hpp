@@ -2,6 +2,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,6 +35,11 @@ struct HelloInfo {
   double force_max_n = 0;       ///< hand N that the device may render
   std::string replay_of;        ///< session that was recorded; empty: this is live
   uint32_t duration_ticks = 0;  ///< of the recording
+  /// Of the scapula, world frame; none where the case lacks one of them.
+  struct ScapulaPoints {
+    Vec3 glenoid_centre_mm, trigonum_mm, inferior_angle_mm;
+  };
+  std::optional<ScapulaPoints> scapula;
 };
 
 Message hello_message(const HelloInfo& info);

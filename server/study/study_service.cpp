@@ -17,7 +17,7 @@ namespace {
 constexpr int max_draws = 20;
 
 Error unknown_study(const std::string& id) {
-  return {ErrorKind::not_found, "no study '" + id + "'; GET /api/v1/studies lists them"};
+  return {ErrorKind::not_found, "no study '" + id + "'"};
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ void StudyService::require_settings(const StudySettings& settings) const {
     throw Error(ErrorKind::invalid_input, "cases: a study needs one or more");
   for (const std::string& case_id : settings.cases)
     if (!dependencies_->has_case(case_id))
-      throw Error(ErrorKind::not_found, "no case '" + case_id + "'; GET /api/v1/cases lists them");
+      throw Error(ErrorKind::not_found, "no case '" + case_id + "'");
   if (!settings.design || settings.design->test_case.empty()) return;
   if (std::find(settings.cases.begin(), settings.cases.end(), settings.design->test_case) ==
       settings.cases.end())

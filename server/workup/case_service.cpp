@@ -81,7 +81,7 @@ CaseService::CaseService(fs::path cases_folder, const session::SessionService& s
 fs::path CaseService::folder_of(const std::string& id) const {
   const fs::path folder = cases_folder_ / id;
   if (!is_name(id) || !is_case_folder(folder))
-    throw Error(ErrorKind::not_found, "no case '" + id + "'; GET /api/v1/cases lists them");
+    throw Error(ErrorKind::not_found, "no case '" + id + "'");
   return folder;
 }
 

@@ -106,6 +106,9 @@ test('a viewer link shows the session live and changes nothing, and its secret l
   expect(viewer.url()).not.toContain('watch=');
   expect((await readout(viewer)).sessionId).toBe(watched);
   await expect(who(viewer)).toHaveAttribute('data-role', 'viewer');
+  // Angles are against the scapula for everybody, though a viewer may read no case.
+  await expect(viewer.getByTestId('version-plan')).toBeAttached();
+  await expect(viewer.locator('.gauge-note')).toHaveCount(0);
   for (const control of ['practise', 'run-demo', 'stop', 'pause-session', 'reset-session', 'share', 'log-out'])
     await expect(viewer.getByTestId(control)).toBeHidden();
   for (const way of ['to-sessions', 'to-cases', 'to-studies', 'to-users'])

@@ -1,9 +1,11 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "access/access_control.hpp"
 #include "app/backup.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/terminal_progress.hpp"
@@ -39,6 +41,18 @@ std::string alt_text(const std::map<std::string, size_t>& counts, uint64_t rows)
          counted(count_of(counts, "cases"), "case") + ", " + counted(rows, "row");
 }
 
+/// In the audit log of the database as it is now.
+void note(store::Database& database, const std::string& action, const std::string& detail) {
+  access::AccessControl(database).audit.note(
+      {"", "command line", access::to_text(access::Role::operator_), "", ""}, action, "", detail);
+}
+
+/// 0 for a log without rows.
+int64_t last_audit_row(store::Database& database) {
+  const auto rows = access::AccessControl(database).audit.list(std::numeric_limits<int64_t>::max(), 1);
+  return rows.empty() ? 0 : rows.front().number;
+}
+
 void back_up(const BackupOptions& options, const GlobalOptions& global) {
   const fs::path data = data_folder(global.data);
   std::error_code failed;
@@ -54,6 +68,7 @@ void back_up(const BackupOptions& options, const GlobalOptions& global) {
     const TerminalProgress progress;
     report = write_backup(*database, data, options.file, std::cref(progress));
   }
+  note(*database, "data.backup", options.file.filename().string());
   for (const std::string& id : report.live)
     log::warn("session " + id + " is live; it is kept as far as it had come");
   if (global.json)
@@ -75,11 +90,14 @@ void restore(const BackupOptions& options, const GlobalOptions& global) {
   catch_interrupts();
   const auto database = open_database(global.db, data);
   make_data_folder(data);
+  const int64_t last_row = last_audit_row(*database);
   RestoreReport report;
   {
     const TerminalProgress progress;
     report = restore_backup(*database, data, options.file, options.restore, std::cref(progress));
   }
+  note(*database, "data.restore",
+       options.file.filename().string() + "; the log before it ended with row " + std::to_string(last_row));
   log::info(options.restore.keep_tokens
                 ? "logins and viewer links are not restored; tokens are, also those revoked since the backup"
                 : "logins, viewer links and tokens are not restored; make new ones (or restore with "

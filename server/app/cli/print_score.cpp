@@ -54,7 +54,7 @@ void print_metrics(const json& metrics, const json& score) {
 
 void print_missing(const json& metrics) {
   const std::vector<report::Fact> missing = report::missing_metrics(metrics);
-  if (!missing.empty()) std::cout << "  not said:\n";
+  if (!missing.empty()) std::cout << "  not available:\n";
   for (const report::Fact& fact : missing)
     std::cout << "    " << fact.value << ":\n      " << fact.name << '\n';
 }

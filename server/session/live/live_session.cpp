@@ -61,7 +61,7 @@ std::shared_ptr<device::DevicePort> make_device_port(const SessionRequest& reque
 std::shared_ptr<stream::Fanout> make_fanout(const SessionContext& context, const SessionRequest& request,
                                             const Simulation& simulation) {
   const sim::Model& model = simulation.model;
-  stream::HelloInfo info = make_hello(simulation.bone_case, model.plan, model.tool);
+  stream::HelloInfo info = make_hello(simulation.bone_case, model.plan, model.tool, simulation.anatomy);
   info.session_id = request.id;
   info.server_epoch = context.server_epoch;
   info.force_scale = model.settings.force_scale;

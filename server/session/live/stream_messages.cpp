@@ -12,7 +12,8 @@ bool is_at_rest(const Pose& world_from_bone_rest) {
 
 }  // namespace
 
-stream::HelloInfo make_hello(const case_::Case& c, const case_::Plan& plan, const shell::Tool& tool) {
+stream::HelloInfo make_hello(const case_::Case& c, const case_::Plan& plan, const shell::Tool& tool,
+                             const case_::Anatomy& anatomy) {
   stream::HelloInfo info;
   info.case_id = case_::is_two_plates(c.id) ? case_::two_plates_word : c.id;
   info.case_name = c.name;
@@ -23,6 +24,9 @@ stream::HelloInfo make_hello(const case_::Case& c, const case_::Plan& plan, cons
   info.axis_entry_mm = plan.entry_mm;
   info.axis_direction = plan.axis_direction;
   info.planned_depth_mm = plan.depth_mm;
+  if (const auto& points = anatomy.landmarks;
+      points && points->glenoid_centre_mm && points->trigonum_mm && points->inferior_angle_mm)
+    info.scapula = {*points->glenoid_centre_mm, *points->trigonum_mm, *points->inferior_angle_mm};
   return info;
 }
 

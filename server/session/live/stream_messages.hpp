@@ -1,5 +1,6 @@
 #pragma once
 #include "case/case.hpp"
+#include "case/landmarks.hpp"
 #include "record/tick_report.hpp"
 #include "score/metrics.hpp"
 #include "shell/tool.hpp"
@@ -10,7 +11,8 @@
 namespace ream::session {
 
 /// What viewers are told of a case, its plan and the tool in the hand; who sends it fills in the rest.
-stream::HelloInfo make_hello(const case_::Case& c, const case_::Plan& plan, const shell::Tool& tool);
+stream::HelloInfo make_hello(const case_::Case& c, const case_::Plan& plan, const shell::Tool& tool,
+                             const case_::Anatomy& anatomy);
 
 /// What viewers are told of one tick. Where the bone is, is left out where it has not moved.
 void update_sample(const record::TickReport& report, stream::TelemetrySample& sample);

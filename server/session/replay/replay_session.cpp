@@ -16,6 +16,7 @@
 #include "session/live/stream_messages.hpp"
 #include "session/live/viewer_stream.hpp"
 #include "session/simulation/recorded_session.hpp"
+#include "session/simulation/recorded_setup.hpp"
 #include "sim/model.hpp"
 #include "sim/settings.hpp"
 
@@ -89,7 +90,9 @@ ReplaySession::ReplaySession(const SessionContext& context, const ReplayRequest&
 ReplaySession::~ReplaySession() { stop(); }
 
 stream::HelloInfo ReplaySession::hello() const {
-  stream::HelloInfo info = make_hello(bone_.start, *bone_.start.plan, {});
+  const case_::Anatomy anatomy =
+      recording_.header().anatomy.empty() ? case_::Anatomy{} : anatomy_in(recording_);
+  stream::HelloInfo info = make_hello(bone_.start, *bone_.start.plan, {}, anatomy);
   info.session_id = request_.id;
   info.server_epoch = context_.server_epoch;
   info.force_scale = recording_.header().force_scale;

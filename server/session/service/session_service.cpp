@@ -113,7 +113,7 @@ std::shared_ptr<SessionService::Entry> SessionService::find_or_none(const std::s
 
 SessionRecord SessionService::archived(const std::string& id) const {
   if (auto record = archive_.find(id)) return *record;
-  throw Error(ErrorKind::not_found, "no session '" + id + "'; GET /api/v1/sessions lists them");
+  throw Error(ErrorKind::not_found, "no session '" + id + "'");
 }
 
 std::shared_ptr<SessionService::Entry> SessionService::find(const std::string& id) const {

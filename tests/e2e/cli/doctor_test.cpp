@@ -13,8 +13,8 @@ class Doctor : public Serve {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, exit_code) << outcome.error;
     std::map<std::string, json> by_subject;
-    for (const json& finding : json::parse(outcome.out).at("findings"))
-      by_subject[finding.at("subject")] = finding;
+    const json all = json::parse(outcome.out);
+    for (const json& finding : all.at("findings")) by_subject[finding.at("subject")] = finding;
     return by_subject;
   }
 };
@@ -38,8 +38,8 @@ TEST_F(Doctor, SeesAServerAndWhatWouldBeInItsWay) {
   const auto running = findings(0, {});
   EXPECT_NE(running.at("data folder").at("text").get<std::string>().find("A server runs"), std::string::npos);
   const std::string port = std::to_string(port_);
-  const std::string settings = write("ream.toml", "data = 'other'\n[serve]\nport = " + port + "\n");
-  const auto second = findings(1, {"--config", settings});
+  const std::string settings = write("ream.toml", "[serve]\nport = " + port + "\n");
+  const auto second = findings(1, {"--config", settings, "--data", "other"});
   EXPECT_EQ(second.at("address").at("state"), "fault");
   EXPECT_NE(second.at("address").at("text").get<std::string>().find(port), std::string::npos);
 }

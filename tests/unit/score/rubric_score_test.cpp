@@ -97,7 +97,7 @@ TEST(RubricScore, ACriticalCriterionDecidesWhateverThePoints) {
   const Score breached = apply_rubric(r, {{"breach_mm", 4.5}, {"error_mm", 0.0}});
   EXPECT_DOUBLE_EQ(*breached.points, 100.0);
   EXPECT_EQ(breached.outcome, Outcome::fail);
-  EXPECT_NE(breached.reasons.front().find("breach_mm fails"), std::string::npos);
+  EXPECT_NE(breached.reasons.front().find("breach_mm failed; it is a critical criterion"), std::string::npos);
   EXPECT_EQ(apply_rubric(r, {{"breach_mm", 3.0}, {"error_mm", 0.0}}).outcome, Outcome::pass) << "warned only";
   EXPECT_EQ(apply_rubric(r, {{"breach_mm", nullptr}, {"error_mm", 0.0}}).outcome, Outcome::undecided);
   EXPECT_EQ(apply_rubric(r, {{"breach_mm", nullptr}, {"error_mm", 9.0}}).outcome, Outcome::fail)
@@ -113,7 +113,7 @@ TEST(RubricScore, PointsDecideByTheMark) {
   EXPECT_EQ(apply_rubric(r, {{"a_mm", 1.0}, {"b_mm", 3.0}}).outcome, Outcome::pass) << "75 points are enough";
   const Score short_of = apply_rubric(r, {{"a_mm", 1.0}, {"b_mm", 3.001}});
   EXPECT_EQ(short_of.outcome, Outcome::fail);
-  EXPECT_NE(short_of.reasons.front().find("74.9 points"), std::string::npos)
+  EXPECT_NE(short_of.reasons.front().find("74.9 of 100 points"), std::string::npos)
       << "never rounded up to the mark";
 }
 

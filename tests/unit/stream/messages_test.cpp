@@ -131,6 +131,23 @@ TEST(Messages, OnlyAReplaySaysThatItIsOne) {
   EXPECT_EQ(t->playback()->jump(), 7u);
 }
 
+TEST(Messages, WhereTheScapulaLiesIsSaidWhole) {
+  HelloInfo info = example_hello();
+  info.scapula.reset();
+  const Message without = hello_message(info);
+  const wire::Hello* unknown = wire::GetServerMessage(without->data())->body_as_Hello();
+  EXPECT_EQ(unknown->glenoid_centre_mm(), nullptr);
+  EXPECT_EQ(unknown->trigonum_mm(), nullptr);
+  EXPECT_EQ(unknown->inferior_angle_mm(), nullptr);
+  info.scapula = {Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(7, 8, 9)};
+  const Message with = hello_message(info);
+  const wire::Hello* hello = wire::GetServerMessage(with->data())->body_as_Hello();
+  ASSERT_NE(hello->inferior_angle_mm(), nullptr);
+  EXPECT_EQ(hello->glenoid_centre_mm()->x(), 1.0f);
+  EXPECT_EQ(hello->trigonum_mm()->y(), 5.0f);
+  EXPECT_EQ(hello->inferior_angle_mm()->z(), 9.0f);
+}
+
 TEST(Messages, AChangeOfToolCarriesItsMesh) {
   const HelloInfo info = example_hello();
   const Message message = tool_message(info.tool, "sphere 8");

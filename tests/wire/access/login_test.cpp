@@ -181,8 +181,18 @@ TEST_F(LoginTest, ListsShowTraineesTheirOwn) {
   EXPECT_EQ(ids(guest_of("")), (std::set<std::string>{toms, tesses}));
   const json unseen = json::parse(request("GET", all + "/" + tesses, token_of(tom_id)).body);
   const json unknown = json::parse(request("GET", all + "/abcdefgh", token_of(tom_id)).body);
-  EXPECT_EQ(unseen.at("detail"), "no session '" + tesses + "'; GET /api/v1/sessions lists them");
-  EXPECT_EQ(unknown.at("detail"), "no session 'abcdefgh'; GET /api/v1/sessions lists them");
+  EXPECT_EQ(unseen.at("detail"), "no session '" + tesses + "'");
+  EXPECT_EQ(unknown.at("detail"), "no session 'abcdefgh'");
+}
+
+TEST_F(LoginTest, ARemarkIsSignedByWhoMadeIt) {
+  const std::string session = all + "/" + session_of_tom(), remarks = session + "/annotations";
+  ASSERT_EQ(request("POST", session + "/start", token_of(tom_id)).status, 200);
+  for (const char* signed_as : {R"({"words": "ease off"})", R"({"words": "ease off", "author": "tom"})"}) {
+    const HttpReply made = request("POST", remarks, token_of(instructor_id), signed_as);
+    ASSERT_EQ(made.status, 201) << made.body;
+    EXPECT_EQ(json::parse(made.body).at("author"), "ina");
+  }
 }
 
 TEST_F(LoginTest, StreamsAreForPagesOfThisServerAndForTokens) {

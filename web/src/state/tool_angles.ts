@@ -1,7 +1,7 @@
 import { Quaternion, Vector3 } from 'three';
 
 import type { PlanFrame } from '../practice/plan_frame';
-import type { Pose, Triple } from '../wire/messages';
+import type { Hello, Pose, Triple } from '../wire/messages';
 
 /** Directions by which a face of the glenoid is named, unit, world frame. */
 export interface FaceFrame {
@@ -17,6 +17,16 @@ export interface ScapulaPoints {
   glenoid_centre_mm?: Triple;
   trigonum_mm?: Triple;
   inferior_angle_mm?: Triple;
+}
+
+/** As the stream says it, which everybody sees who watches; else as the case says it to who may read it. */
+export function scapulaPoints({ scapula }: Pick<Hello, 'scapula'>, ofCase: ScapulaPoints | null): ScapulaPoints | null {
+  if (scapula === null) return ofCase;
+  return {
+    glenoid_centre_mm: scapula.glenoidCentreMm,
+    trigonum_mm: scapula.trigonumMm,
+    inferior_angle_mm: scapula.inferiorAngleMm,
+  };
 }
 
 /** Degrees; retroversion is negative, superior inclination positive. */

@@ -7,7 +7,7 @@ import { MeshDelta as WireMeshDelta } from './generated/ream/wire/mesh-delta';
 import { ServerMessage } from './generated/ream/wire/server-message';
 import { Telemetry as WireTelemetry } from './generated/ream/wire/telemetry';
 import { ToolChange } from './generated/ream/wire/tool-change';
-import type { Hello, MeshDelta, StreamMessage, ToolMesh } from './messages';
+import type { Hello, MeshDelta, ScapulaPoints, StreamMessage, ToolMesh } from './messages';
 import { pose, triple, type Triple } from './pose';
 import { decodeTelemetry } from './telemetry';
 
@@ -77,6 +77,19 @@ function decodeHello(hello: WireHello): Hello {
     handForceMaxN: hello.forceMaxN(),
     replayOf: hello.replayOf() ?? '',
     durationTicks: hello.durationTicks(),
+    scapula: scapulaOf(hello),
+  };
+}
+
+function scapulaOf(hello: WireHello): ScapulaPoints | null {
+  const centre = hello.glenoidCentreMm();
+  const trigonum = hello.trigonumMm();
+  const angle = hello.inferiorAngleMm();
+  if (centre === null || trigonum === null || angle === null) return null;
+  return {
+    glenoidCentreMm: triple(centre, [0, 0, 0]),
+    trigonumMm: triple(trigonum, [0, 0, 0]),
+    inferiorAngleMm: triple(angle, [0, 0, 0]),
   };
 }
 

@@ -42,6 +42,15 @@ export interface Hello {
   replayOf: string;
   /** Of the recording, 0 for what is live. */
   durationTicks: number;
+  /** How the scapula lies; null where the case does not say. */
+  scapula: ScapulaPoints | null;
+}
+
+/** Landmarks of the scapula, mm. */
+export interface ScapulaPoints {
+  glenoidCentreMm: Triple;
+  trigonumMm: Triple;
+  inferiorAngleMm: Triple;
 }
 
 /** Whether it is of two plates for a study of feel: no shoulder. */

@@ -2,7 +2,7 @@ import { Quaternion, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
 
 import { PlanFrame } from '../../src/practice/plan_frame';
-import { anglesOfAxis, axisInBone, faceFrame } from '../../src/state/tool_angles';
+import { anglesOfAxis, axisInBone, faceFrame, scapulaPoints } from '../../src/state/tool_angles';
 
 const rad = Math.PI / 180;
 
@@ -32,6 +32,19 @@ describe('version and inclination of the reamer', () => {
       expect(found.versionDeg).toBeCloseTo(version, 9);
       expect(found.inclinationDeg).toBeCloseTo(inclination, 9);
     }
+  });
+
+  it('are against what the stream says of the scapula, which viewers get too, before what the case says', () => {
+    const scapula = {
+      glenoidCentreMm: straight.glenoid_centre_mm,
+      trigonumMm: straight.trigonum_mm,
+      inferiorAngleMm: straight.inferior_angle_mm,
+    };
+    const other = { ...straight, trigonum_mm: [0, 50, 0] as const };
+    expect(scapulaPoints({ scapula }, null)).toEqual(straight);
+    expect(scapulaPoints({ scapula }, other)).toEqual(straight);
+    expect(scapulaPoints({ scapula: null }, other)).toEqual(other);
+    expect(scapulaPoints({ scapula: null }, null)).toBeNull();
   });
 
   it('are the same on the mirrored scapula', () => {

@@ -159,7 +159,7 @@ describe('StreamDecoder of a replay', () => {
     Hello.addReplayOf(b, of);
     Hello.addDurationTicks(b, 61234);
     const hello = decoder.decode(message(b, Body.Hello, Hello.endHello(b)));
-    expect(hello).toMatchObject({ hello: { replayOf: 'abcdefgh', durationTicks: 61234 } });
+    expect(hello).toMatchObject({ hello: { replayOf: 'abcdefgh', durationTicks: 61234, scapula: null } });
 
     const c = new Builder();
     Playback.startPlayback(c);

@@ -23,6 +23,7 @@ export function hello(changes: Partial<Hello> = {}): StreamMessage {
       handForceMaxN: 3,
       replayOf: '',
       durationTicks: 0,
+      scapula: null,
       ...changes,
     },
   };

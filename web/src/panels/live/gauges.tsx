@@ -4,7 +4,7 @@ import { liveText } from '../../text/live_text';
 import { PlanFrame } from '../../practice/plan_frame';
 import type { LiveCase } from '../../state/live_case';
 import type { Store } from '../../state/store';
-import { anglesOfAxis, axisInBone, faceFrame } from '../../state/tool_angles';
+import { anglesOfAxis, axisInBone, faceFrame, scapulaPoints } from '../../state/tool_angles';
 import { appText } from '../../text/app_text';
 import { DepthMeter } from './depth_meter';
 import { fixed } from '../../text/format';
@@ -21,7 +21,7 @@ export function Gauges({ store, liveCase }: { store: Store; liveCase: LiveCase }
   const telemetry = store.reading.value.telemetry;
   if (hello === null) return <DepthMeter store={store} />;
   const plan = new PlanFrame(hello);
-  const frame = faceFrame(plan, liveCase.landmarks.value);
+  const frame = faceFrame(plan, scapulaPoints(hello, liveCase.landmarks.value));
   const planned = anglesOfAxis(plan.axis, frame);
   const pose = telemetry?.worldFromTool ?? null;
   const axis = pose === null ? null : axisInBone(pose, telemetry?.worldFromBoneRest ?? null);
