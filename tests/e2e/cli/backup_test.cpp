@@ -65,7 +65,7 @@ TEST_F(Backup, CarriesARunningServersSessionsIntoPostgresqlAndBack) {
   for (const std::string& id : {ended, live}) succeed({"replay", id, "--verify", "--data", "second"});
 
   succeed({"backup", "second.zip", "--data", "second", "--db", url});
-  EXPECT_EQ(answer({"restore", "second.zip", "--data", "third"}).at("rows"), 5);
+  EXPECT_EQ(answer({"restore", "second.zip", "--data", "third"}).at("rows"), 6);
   const std::string log = succeed({"audit", "export", "--data", "third"}).out;
   EXPECT_NE(log.find("first.zip; the log before it ended with row 0"), std::string::npos) << log;
   EXPECT_NE(log.find("second.zip; the log before it ended with row 0"), std::string::npos) << log;
