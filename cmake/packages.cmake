@@ -5,6 +5,7 @@ set(made ${CMAKE_BINARY_DIR}/package)
 install(TARGETS ream RUNTIME DESTINATION bin COMPONENT ream)
 install(TARGETS ream-reader RUNTIME DESTINATION lib/ream COMPONENT ream)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/web/dist/ DESTINATION share/ream/web COMPONENT ream)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/examples DESTINATION share/doc/ream COMPONENT ream)
 install(DIRECTORY ${made}/man/ DESTINATION share/man/man1 COMPONENT ream OPTIONAL)
 install(FILES ${made}/completion RENAME ream DESTINATION share/bash-completion/completions COMPONENT ream OPTIONAL)
 install(FILES ${CMAKE_SOURCE_DIR}/packaging/copyright ${made}/changelog.gz ${made}/CHANGELOG.md.gz

@@ -1,5 +1,5 @@
 #include "api/server.hpp"
-#include "core/remove_tree.hpp"
+#include "core/temporary_file.hpp"
 
 #include <contract.hpp>
 

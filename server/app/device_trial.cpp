@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/numbers.hpp"
+#include "app/numbers.hpp"
 #include "core/clock.hpp"
 #include "core/interrupt.hpp"
 #include "device/crash_guard.hpp"

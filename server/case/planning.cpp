@@ -59,6 +59,10 @@ void judge_pilot_hole(const Plan& plan, const voxel::BoneModel& bone, PlanAssess
     a.warnings.push_back("the entry does not lie on the bone");
     return;
   }
+  if (plan.depth_mm >= *a.vault_depth_mm)
+    a.warnings.push_back("the depth of " + one_decimal(plan.depth_mm) +
+                         " mm goes through the bone, of which " + one_decimal(*a.vault_depth_mm) +
+                         " mm lie along the axis");
   if (plan.pilot_hole && plan.pilot_hole->depth_mm >= *a.vault_depth_mm)
     a.warnings.push_back("the pilot hole of " + one_decimal(plan.pilot_hole->depth_mm) +
                          " mm goes through the far cortex, which lies " + one_decimal(*a.vault_depth_mm) +

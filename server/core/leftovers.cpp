@@ -11,7 +11,7 @@
 
 #include "core/data_folder.hpp"
 #include "core/file_lock.hpp"
-#include "core/remove_tree.hpp"
+#include "core/temporary_file.hpp"
 
 namespace ream {
 namespace fs = std::filesystem;

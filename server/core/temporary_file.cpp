@@ -8,7 +8,6 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
-#include "core/remove_tree.hpp"
 
 namespace ream {
 namespace fs = std::filesystem;

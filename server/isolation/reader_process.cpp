@@ -21,7 +21,7 @@
 #include "core/error.hpp"
 #include "core/file_descriptor.hpp"
 #include "core/json.hpp"
-#include "core/remove_tree.hpp"
+#include "core/temporary_file.hpp"
 #include "core/text.hpp"
 #include "isolation/reader_service.hpp"
 

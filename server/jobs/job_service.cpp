@@ -8,8 +8,8 @@
 #include "core/file.hpp"
 #include "core/log.hpp"
 #include "core/new_id.hpp"
-#include "core/remove_tree.hpp"
 #include "core/signal_handlers.hpp"
+#include "core/temporary_file.hpp"
 #include "core/thread_pool.hpp"
 
 namespace ream::jobs {

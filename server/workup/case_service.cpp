@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/new_id.hpp"
-#include "core/remove_tree.hpp"
+#include "core/temporary_file.hpp"
 #include "core/text.hpp"
 #include "ct/build/ct_workspace.hpp"
 #include "ct/build/import.hpp"
@@ -80,8 +80,7 @@ CaseService::CaseService(fs::path cases_folder, const session::SessionService& s
 
 fs::path CaseService::folder_of(const std::string& id) const {
   const fs::path folder = cases_folder_ / id;
-  if (!is_name(id) || !is_case_folder(folder))
-    throw Error(ErrorKind::not_found, "no case '" + id + "'");
+  if (!is_name(id) || !is_case_folder(folder)) throw Error(ErrorKind::not_found, "no case '" + id + "'");
   return folder;
 }
 

@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/new_id.hpp"
-#include "core/remove_tree.hpp"
+#include "core/temporary_file.hpp"
 #include "net/problem.hpp"
 
 namespace ream::workup {

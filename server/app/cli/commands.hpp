@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -43,5 +44,16 @@ void add_restore_command(CLI::App& app, GlobalOptions& options);
 void add_bench_command(CLI::App& app, GlobalOptions& options);
 /// Knows all commands that `app` has when it runs.
 void add_completion_command(CLI::App& app);
+
+/// Lets `app` take options from a TOML file: --config FILE, else REAM_CONFIG, else none. The file has `data`
+/// and `db`, and the options of `ream serve` in its section [serve]. The command line comes first, then
+/// REAM_DATA and REAM_DB, then the file. Call it when all commands are there.
+/// While `app` parses: Error usage for a file that is not TOML, and for a section, a key or a value that
+/// nothing takes, with file and line.
+void add_settings_file(CLI::App& app);
+
+/// One sentence about the first argument that is no command or option of `app`, with the nearest that is one;
+/// empty when all are known. `arguments`: without the program's name.
+std::string unknown_argument(const CLI::App& app, const std::vector<std::string>& arguments);
 
 }  // namespace ream::app

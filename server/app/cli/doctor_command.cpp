@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.hpp"
+#include "app/cli/doctor.hpp"
 #include "app/cli/serve_options.hpp"
-#include "app/doctor.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 

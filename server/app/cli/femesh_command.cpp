@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.hpp"
-#include "app/cli/numbers.hpp"
 #include "app/cli/terminal_progress.hpp"
 #include "app/mesh_source.hpp"
+#include "app/numbers.hpp"
 #include "core/clock.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.hpp"
-#include "app/cli/numbers.hpp"
 #include "app/cli/terminal_progress.hpp"
+#include "app/numbers.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"

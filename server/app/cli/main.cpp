@@ -6,8 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.hpp"
-#include "app/cli/settings_file.hpp"
-#include "app/cli/unknown_argument.hpp"
 #include "app/open_database.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"

@@ -1,10 +1,12 @@
 #include <CLI/CLI.hpp>
+#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "app/cli/commands.hpp"
-#include "app/cli/numbers.hpp"
+#include "app/numbers.hpp"
 #include "case/measures.hpp"
 #include "case/plan.hpp"
 #include "case/planning.hpp"
@@ -26,7 +28,7 @@ struct PlanOptions {
   std::filesystem::path landmarks;
   std::optional<double> version_deg, inclination_deg, implant_radius_mm;
   std::optional<double> depth_mm, pilot_diameter_mm, pilot_depth_mm;
-  bool no_pilot = false;
+  bool no_pilot = false, replace = false;
 
   bool by_angles() const { return version_deg || inclination_deg; }
 };
@@ -150,6 +152,17 @@ void print(const case_::Plan& plan, const case_::PlanAssessment& assessment,
   std::cout << (folder / "plan.json").string() << '\n';
 }
 
+void require_possible_depth(const case_::Plan& plan, const case_::PlanAssessment& assessment,
+                            const PlanOptions& options) {
+  if (!assessment.vault_depth_mm || plan.depth_mm < *assessment.vault_depth_mm) return;
+  if (!options.override_reason.empty()) return;
+  std::ostringstream words;
+  words << std::fixed << std::setprecision(1) << "a depth of " << plan.depth_mm
+        << " mm goes through the bone, of which " << *assessment.vault_depth_mm
+        << " mm lie along the axis: --override REASON";
+  throw Error(ErrorKind::conflict, words.str());
+}
+
 void plan_case(PlanOptions options, const GlobalOptions& global) {
   const auto folder = case_path(options.case_name, global.data);
   const auto data = data_folder(global.data);
@@ -168,6 +181,12 @@ void plan_case(PlanOptions options, const GlobalOptions& global) {
   const bool same_axis = c.plan && c.plan->axis_direction == plan.axis_direction;
   if (assessment.needs_override && !same_axis)
     throw Error(ErrorKind::conflict, case_::why_refused(assessment) + ": --override REASON");
+  require_possible_depth(plan, assessment, options);
+  if (options.case_name == "demo" && !options.replace && c.plan &&
+      case_::to_json(*c.plan) != case_::to_json(plan))
+    throw Error(
+        ErrorKind::conflict,
+        "this would change the plan of the built-in demo for everybody who uses this data folder: --replace");
   if (!options.landmarks.empty()) case_::save_landmarks(landmarks, folder);
   case_::save_plan(plan, folder);
   for (const std::string& warning : assessment.warnings) log::warn(warning);
@@ -194,7 +213,8 @@ void add_axis_options(CLI::App& command, PlanOptions& options) {
       ->check(CLI::Range(-40.0, 40.0))
       ->excludes(axis);
   command.add_option("--override", options.override_reason,
-                     "Why a correction of 15 degrees or more by reaming alone is taken all the same");
+                     "Why a correction of 15 degrees or more by reaming alone, or a depth through the bone, "
+                     "is taken all the same");
 }
 
 }  // namespace
@@ -204,6 +224,7 @@ void add_plan_command(CLI::App& app, GlobalOptions& global) {
   CLI::App* command = app.add_subcommand("plan", "Say where and how deep a case is to be reamed");
   command->add_option("CASE", options->case_name, "Name of a case, or its folder")->required();
   add_axis_options(*command, *options);
+  command->add_flag("--replace", options->replace, "Change the plan of the built-in demo");
   command->add_option("--depth-mm", options->depth_mm, "Depth past first contact of the cutting surface");
   command->add_option("--implant", options->implant,
                       "Component: pegged or keeled, small, medium or large (\"pegged medium\"), or as its "

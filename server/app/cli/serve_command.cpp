@@ -13,7 +13,6 @@
 #include "app/cli/serve_options.hpp"
 #include "app/open_database.hpp"
 #include "app/server_address.hpp"
-#include "app/web_folder.hpp"
 #include "core/clock.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.hpp"
-#include "app/cli/numbers.hpp"
+#include "app/numbers.hpp"
 #include "core/atomic_file.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"

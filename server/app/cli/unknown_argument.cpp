@@ -1,4 +1,4 @@
-#include "app/cli/unknown_argument.hpp"
+#include "app/cli/commands.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "app/cli/commands.hpp"
-#include "app/cli/numbers.hpp"
 #include "app/cli/terminal_progress.hpp"
+#include "app/numbers.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "geometry/mesh_io.hpp"

@@ -48,10 +48,18 @@ TEST_F(Planning, ByVersionAndInclinationOfTheLandmarks) {
   EXPECT_FALSE(plan.at("measures").at("biconcavity").is_null());
   EXPECT_EQ(json_of("data/cases/b2/landmarks.json"), json_of("ct/landmarks.json")) << "kept with the case";
 
+  refuse(1, "a depth of 90.0 mm goes through the bone", {"plan", "b2", "--depth-mm", "90"});
   const Outcome words = succeed({"plan", "b2", "--depth-mm", "1"});
   EXPECT_NE(words.out.find("retroversion"), std::string::npos) << words.out;
   EXPECT_NE(words.error.find("by reaming alone"), std::string::npos) << words.error;
   EXPECT_EQ(json_of("data/cases/b2/plan.json").at("version_deg"), -8.0) << "what is not asked for stays";
+}
+
+TEST_F(CommandLine, ThePlanOfTheDemoChangesOnlyWhereThatIsWanted) {
+  const json before = answer({"plan", "demo"});
+  refuse(1, "--replace", {"plan", "demo", "--depth-mm", "2"});
+  EXPECT_EQ(answer({"plan", "demo"}), before);
+  EXPECT_EQ(answer({"plan", "demo", "--depth-mm", "2", "--replace"}).at("depth_mm"), 2.0);
 }
 
 TEST_F(Planning, AnOverrideIsKeptWithItsReason) {

@@ -1,4 +1,4 @@
-#include "app/cli/settings_file.hpp"
+#include "app/cli/commands.hpp"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "core/remove_tree.hpp"
+#include "core/temporary_file.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

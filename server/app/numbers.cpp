@@ -1,4 +1,4 @@
-#include "app/cli/numbers.hpp"
+#include "app/numbers.hpp"
 
 #include <charconv>
 #include <cmath>

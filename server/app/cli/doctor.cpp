@@ -1,4 +1,4 @@
-#include "app/doctor.hpp"
+#include "app/cli/doctor.hpp"
 
 #include <sys/statvfs.h>
 #include <sys/timex.h>
@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <functional>
 #include <thread>
-#include "app/cli/numbers.hpp"
+#include "app/cli/serve_options.hpp"
+#include "app/numbers.hpp"
 
 #include "app/open_database.hpp"
-#include "app/web_folder.hpp"
 #include "core/clock.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
