@@ -95,7 +95,7 @@ test('a session that rests is not live when the network is cut, and is again whe
   await expect(page.getByTestId('link-notice')).toContainText('It is not live');
   await expect(page.getByTestId('picture')).toHaveAttribute('data-stale', 'true');
   await page.getByTestId('to-dashboard').click();
-  await expect(page.getByTestId('no-updates')).toContainText('does not answer');
+  await expect(page.getByTestId('no-updates')).toContainText('does not respond');
   await context.setOffline(false);
   await expect(page.getByTestId('no-updates')).toBeHidden();
   await page.getByTestId('to-live').click();
