@@ -144,7 +144,7 @@ export const appText = {
 
   pictureLostTitle: 'The picture has stopped',
   pictureLost:
-    'The browser or the graphics card stopped drawing. The picture returns by itself. If it does not, reload the page.',
+    'The browser or the graphics card stopped drawing. The picture returns automatically. If not, reload the page.',
   pictureLostSteering: 'Control released. The figures stay live.',
   reload: 'Reload the page',
   sessionGone: (id: string) => `Session ${id} was shown here. It has been deleted.`,
@@ -160,7 +160,7 @@ export const appText = {
   neverTitle: 'The simulator is not ready yet',
   retryIn: (seconds: number) => `Trying again in ${seconds.toFixed(seconds < 1 ? 1 : 0)} s.`,
   retryNow: 'Trying again…',
-  waiting: 'Waiting for an answer.',
+  waiting: 'Waiting for a response.',
   nothingTitle: 'No session yet',
   nothingToMake: 'Press Practise to start.',
   nothingToWatch: 'New sessions appear here automatically.',
@@ -267,7 +267,7 @@ export const appText = {
   handHolding: 'Connected',
   handHeld: 'Connection a little slow',
   handFading: 'Connection slow',
-  handSilent: 'No answer',
+  handSilent: 'No response',
   handLost: 'Connection lost',
   handEnded: (reason: string) => `This page no longer controls the reamer: ${reason}`,
   roundTrip: (ms: string) => `${ms} ms`,

@@ -189,7 +189,7 @@ export const caseText = {
     inferior_angle_mm: 'The lowest tip of the scapula.',
     humeral_head: 'The centre of the head. Then set the radius until the circle fits.',
     biconcavity_0: 'The anterior edge of the paleoglenoid. Place all three points on one axial line.',
-    biconcavity_1: 'The ridge between the paleoglenoid and the neoglenoid (the worn face).',
+    biconcavity_1: 'The ridge between the paleoglenoid and the neoglenoid (the worn part).',
     biconcavity_2: 'The posterior edge of the neoglenoid.',
   } satisfies Record<LandmarkName, string>,
   placed: 'placed',

@@ -59,7 +59,7 @@ export const dashboardText = {
   learnerSessions: (name: string, count: number) => `${name} (${count})`,
   noLearner:
     'No trainee has a finished session yet. Trainees appear here after their first session. Operators add trainees under Users.',
-  noOwnSessions: 'You have no finished session yet. Practise in the live view. Your learning curve appears here.',
+  noOwnSessions: 'Your learning curve is empty. Practise in the live view. Demos do not count.',
   allTogether: 'User accounts are off: scores of all sessions are shown together. Operators add trainees under Users.',
   pointsOver: 'Points over sessions',
   cusumOver: 'CUSUM (lower is better)',

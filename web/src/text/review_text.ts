@@ -110,7 +110,7 @@ export const reviewText = {
   noMap: {
     silent: 'The map could not be loaded: the simulator does not respond. Choose it again later.',
     forbidden: 'Viewer links do not show maps. Log in to see them.',
-    nothing: (reason: string) => `No map available: ${reason}. Plan the case on its page before reaming.`,
+    nothing: (reason: string) => `No map available: ${reason}. To get a map, plan the case before reaming.`,
     damaged: (reason: string) =>
       `No map, because the recording is damaged: ${reason} The undamaged part is still shown.`,
     other: (reason: string) => `The map failed: ${reason} Choose it again to retry.`,
@@ -146,7 +146,7 @@ export const reviewText = {
   noOutcome: 'No result: this rubric has no pass mark.',
   rubric: (name: string, version: number, passPoints: number | undefined) =>
     `Rubric “${name}”, version ${version}${passPoints === undefined ? '' : `; pass mark ${passPoints}`}`,
-  measuredPercent: (percent: string) => `Only ${percent} % of the criteria could be assessed.`,
+  measuredPercent: (percent: string) => `The score covers ${percent} % of the rubric.`,
   scoreLoading: 'Loading the score…',
   noScore: (reason: string) => `The score could not be loaded: ${reason}`,
   countsForMark: 'Scored metrics',
@@ -157,7 +157,7 @@ export const reviewText = {
   pointsColumn: 'Points',
   verdict: { pass: 'good', warn: 'borderline', fail: 'bad' },
   noVerdict: 'no limits',
-  critical: 'Critical criterion: decides the result by itself',
+  critical: 'Critical criterion: decides the result, whatever the score',
   bandReport: 'No limits, not scored',
   bandLess: (pass: string, warn: string) =>
     pass === warn ? `good up to ${pass}, bad above` : `good up to ${pass}, borderline up to ${warn}, bad above`,

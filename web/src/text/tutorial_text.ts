@@ -110,7 +110,7 @@ const why = {
   press:
     'On the gauge, the band is the target thrust and the marker is your thrust. A mean of 35 to 70 N gets full points.',
   stop: 'Bone that you cut too deep does not come back. You can always cut more later.',
-  withdraw: 'A turning reamer comes free by itself. A stopped reamer can catch.',
+  withdraw: 'A turning reamer comes free easily. A stopped reamer can catch.',
   result: 'The result shows how close to the plan you are, and how you worked.',
 };
 
@@ -132,7 +132,7 @@ const strayed = {
   tooEarly: (input: InputKind) =>
     `The reamer is already on the bone. First ${release[input]}, then ${withdraw[input]} for a moment.`,
   stalled: (input: InputKind) => `The spindle has stalled. First ${withdraw[input]} for a moment, then press less.`,
-  spindleOff: (input: InputKind) => `The spindle is off. Before you press the reamer on, ${startSpindle[input]}.`,
+  spindleOff: (input: InputKind) => `The spindle is off. Stop pushing, then ${startSpindle[input]}.`,
   offAxis: (input: InputKind) => `The reamer is off the plan or tilted. First ${release[input]}, then ${aim[input]}.`,
   tooHard: (input: InputKind) => `You are pressing too hard. To press less, ${pressLess[input]}.`,
   tooShallow: (input: InputKind) => `You stopped before the planned depth. To continue, ${pressAgain[input]}.`,
