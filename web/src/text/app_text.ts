@@ -220,9 +220,10 @@ export const appText = {
 
   view: 'View',
   noWebGl: 'This page needs WebGL 2. This browser does not support it.',
-  viewPlan: 'Front view',
-  viewAxis: 'Axis view',
-  viewSide: 'Side view',
+  viewPlan: 'Front',
+  viewAxis: 'Axis',
+  viewSide: 'Side',
+  viewHint: { plan: 'View from the front', axis: 'View along the planned axis', side: 'View from the side' },
   showReamer: 'Reamer',
   guideTitle: 'How to ream',
   guideAim: 'Move the orange dot into the green ring',

@@ -10,7 +10,7 @@ export const liveText = {
   boneKindsHint: 'Colours cortical bone, cancellous bone and cartilage, and marks where the reamer touches.',
   kind: { cortical: 'Cortical', cancellous: 'Cancellous', cartilage: 'Cartilage' },
   contact: 'Contact',
-  seeThrough: 'Transparent bone',
+  seeThrough: 'Transparent',
   seeThroughHint: 'Makes the bone transparent, so that you see the reamer.',
   headset: 'Headset',
   headsetOff: 'End headset',

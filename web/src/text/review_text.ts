@@ -68,7 +68,7 @@ export const reviewText = {
   addAnnotation: 'Save comment',
 
   surface: 'Surface',
-  mapName: { none: 'Bone', plan: 'Deviation from plan', implant: 'Implant fit', wall: 'Bone wall' } as Record<
+  mapName: { none: 'Bone', plan: 'Deviation', implant: 'Implant fit', wall: 'Wall' } as Record<
     MapName | 'none',
     string
   >,
@@ -134,7 +134,7 @@ export const reviewText = {
   mapAt: {
     plan: (number: number) => `Deviation from plan at point ${number}`,
     implant: (number: number) => `Implant fit at point ${number}`,
-    wall: (number: number) => `Bone wall at point ${number}`,
+    wall: (number: number) => `Wall at point ${number}`,
   },
 
   score: 'Score',
@@ -234,10 +234,10 @@ export const reviewText = {
     ['K', 'play and pause'],
     [', and .', 'previous event, next event'],
     ['B', 'before and after'],
-    ['D', 'bone, deviation from plan, implant fit, bone wall'],
+    ['D', 'bone, deviation, implant fit, wall'],
     ['E', 'measure; Enter at the middle of the picture'],
     ['T', 'CT slices'],
-    ['V C X', 'surgeon’s view, cut-away, transparent bone'],
+    ['V C X', 'surgeon’s view, cut-away, transparent'],
     ['1 2 3 [ ]', 'sections; move the last section'],
     ['Q', 'choose which of two sessions the keys control'],
     ['Esc', 'close the explanation of a metric'],
