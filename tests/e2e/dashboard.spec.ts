@@ -20,7 +20,7 @@ test('shows who reams with figures and picture, what has ended with its points, 
   await trainee.goto(`${here.server.url}/#/`);
   await logIn(trainee, 'tom');
   await expect(trainee.getByTestId('none-live')).toBeVisible();
-  await expect(trainee.getByTestId('no-course')).toContainText('You have no session');
+  await expect(trainee.getByTestId('no-course')).toContainText('Your learning curve is empty');
 
   // Who teaches begins with it.
   await page.goto(here.server.url);

@@ -87,7 +87,7 @@ export async function goThroughEveryPage(
   await open('#/');
   await expect(page.getByTestId(`points-${ended}`)).toHaveText(/^\d+\.\d$/, { timeout: 60_000 });
   await expect(page.getByTestId('standing')).toBeVisible();
-  await page.getByText('As a table').click();
+  await page.getByText('Show as table').click();
   await look('dashboard-learning');
   await page.getByTestId(`recent-replay-${ended}`).click();
   await page.waitForFunction((of) => window.__ream.replayOf === of && window.__ream.positionTicks !== null, ended);

@@ -127,7 +127,7 @@ test('a participant feels plates and answers, trial after trial; the operator re
   expect(await serious(trainee)).toEqual([]);
   await trainee.keyboard.press('Enter');
   await expect(trainee.getByTestId('feel-trial')).toHaveText('Trial 1 of 2');
-  await expect(trainee.getByTestId('feel-plates')).toHaveText('Feel them again');
+  await expect(trainee.getByTestId('feel-plates')).toHaveText('Feel the plates again');
   for (const plate of ['upper', 'lower'])
     expect((await trainee.getByTestId(`answer-${plate}`).boundingBox())?.height).toBeGreaterThanOrEqual(44);
   expect(await serious(trainee)).toEqual([]);
@@ -142,7 +142,7 @@ test('a participant feels plates and answers, trial after trial; the operator re
   await trainee.reload();
   await trainee.getByTestId('answer-lower').focus();
   await trainee.keyboard.press('Enter');
-  await expect(trainee.getByTestId('feel-done')).toHaveText('All trials are answered. Thank you.');
+  await expect(trainee.getByTestId('feel-done')).toHaveText('You have answered all trials. Thank you.');
 
   await operator.reload();
   await operator.getByTestId('show-feel-report').click();
@@ -184,7 +184,7 @@ test('who plans a study is told how many participants it needs', async ({ browse
   await page.getByTestId('to-studies').click();
   await page.getByTestId('sample-size').locator('summary').click();
   // Cohen 1988: two groups, a large difference, p < 0.05, power 80 %.
-  await expect(page.getByTestId('sample-answer')).toContainText('26 persons in each of two groups.');
+  await expect(page.getByTestId('sample-answer')).toContainText('26 people in each of two groups.');
   await page.getByTestId('sample-question').selectOption('agreement');
   await expect(page.getByTestId('sample-answer')).toContainText('each rated by 2 raters.');
   await page.getByTestId('sample-least').fill('0.9');

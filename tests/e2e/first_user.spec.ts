@@ -13,7 +13,7 @@ test('the first user is an operator, and from then on a login is needed', async 
   await page.getByTestId('add-password').fill(passwordOf('olga'));
   await page.getByTestId('add-user').click();
   await expect(page.getByTestId('login')).toBeVisible();
-  await expect(page.getByTestId('login-problem')).toContainText('asks for a login from now on');
+  await expect(page.getByTestId('login-problem')).toContainText('A login is now required');
   await logIn(page, 'olga');
   await expect(page.getByTestId('user-olga')).toContainText('Operator');
   await expect(page.getByTestId('add-role')).toHaveValue('trainee');

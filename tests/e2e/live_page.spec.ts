@@ -69,9 +69,9 @@ test('says that the link is lost, and recovers by itself when the server is back
 
   await here.server.kill();
   const notice = page.getByTestId('link-notice');
-  await expect(notice).toContainText('The link to the simulator is lost', { timeout: 3000 });
+  await expect(notice).toContainText('Connection to the simulator lost', { timeout: 3000 });
   await expect(notice).toContainText('It is not live');
-  await expect(page.getByTestId('link-state')).toHaveText('Link lost');
+  await expect(page.getByTestId('link-state')).toHaveText('Connection lost');
   await expect(page.getByTestId('picture')).toHaveAttribute('data-stale', 'true');
   await expect(page.getByTestId('run-demo')).toBeDisabled();
   expect((await readout(page)).blocks).toBe(before.blocks);

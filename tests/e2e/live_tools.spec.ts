@@ -1,4 +1,4 @@
-// What the live page can show of the bone: cut-away, see-through, sections and the surgeon's eye, by mouse and by keys.
+// What the live page can show of the bone: cut-away, transparent bone, sections and the surgeon's view, by mouse and by keys.
 import { expect, type Page, test } from '@playwright/test';
 
 import { compare, pictureOfBone } from './pixels';
@@ -77,7 +77,7 @@ test('cuts the bone along the reamer and along the planes of the body, and remem
   await expect(page.getByTestId('section-axial-flip')).toHaveAttribute('aria-pressed', 'true');
 
   const drawing = page.getByTestId('tool-drawing');
-  await expect(drawing.locator('option:checked')).toHaveText('Automatic (plain now)');
+  await expect(drawing.locator('option:checked')).toHaveText('Automatic (low now)');
   const plain = await bone(page);
   const { triangles } = await readout(page);
   await drawing.selectOption('full');
@@ -103,7 +103,7 @@ test('cuts the bone along the reamer and along the planes of the body, and remem
   await expect(page.getByTestId('see-through')).toHaveAttribute('aria-pressed', 'false');
 });
 
-test('glides to the surgeon’s eye and gives the view back to the hand that turns it', async ({ page }, info) => {
+test('glides to the surgeon’s view and gives the view back to the hand that turns it', async ({ page }, info) => {
   await open(page);
   await untilStill(page);
   const own = await bone(page);
@@ -133,7 +133,7 @@ test('always says how late picture and loop are, and sounds only when asked', as
   expect((await page.evaluate(() => window.__ream.sound)).motorGain).toBe(0);
   await page.getByTestId('run-demo').click();
   await expect.poll(async () => Number(await page.getByTestId('latency').textContent())).toBeGreaterThan(0);
-  await expect(page.getByTestId('loop-health')).toContainText(/on time|late/);
+  await expect(page.getByTestId('loop-health')).toContainText(/OK|slow/);
   await expect
     .poll(async () => (await page.evaluate(() => window.__ream.sound)).trackGain, { timeout: 90_000 })
     .toBeGreaterThan(0);
@@ -153,7 +153,7 @@ test('the trainee’s view is the picture alone, and steers', async ({ page }, i
   await page.getByTestId('practise').click();
   await page.waitForFunction(() => window.__ream.deviceLink === 'holding', null, { timeout: 60_000 });
   // Of a hand on this page it is known how long it takes to be seen.
-  await expect(page.getByTestId('live-strip')).toContainText('Hand to picture');
+  await expect(page.getByTestId('live-strip')).toContainText('Input delay');
   await expect.poll(async () => Number(await page.getByTestId('latency').textContent())).toBeGreaterThan(0);
   await page.getByTestId('to-trainee').click();
   await expect(page.getByTestId('trainee-page')).toHaveAttribute('data-theatre', 'false');

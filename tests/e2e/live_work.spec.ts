@@ -32,7 +32,7 @@ test('paints kinds of bone and contact, draws feed and vibration, and keeps rema
     .toBeGreaterThan(0.05);
   await page.keyboard.press('n');
   await page.keyboard.type('Leans too far back');
-  await expect(page.getByTestId('keep-live-annotation')).toContainText('Keep at 0:');
+  await expect(page.getByTestId('keep-live-annotation')).toContainText('Save at 0:');
   await page.keyboard.press('Enter');
   await expect(page.getByTestId('annotations')).toContainText('Leans too far back');
   await expect(page.getByTestId('live-annotation')).toHaveValue('');

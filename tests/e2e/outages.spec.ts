@@ -52,7 +52,7 @@ test('a picture that the browser takes away is said to be lost, and drawn anew w
   expect((await compare(page, before)).bone).toBeGreaterThan(5000);
 
   await losePicture(page);
-  await expect(page.getByTestId('picture-lost')).toContainText('The picture is lost');
+  await expect(page.getByTestId('picture-lost')).toContainText('The picture has stopped');
   await expect(page.getByTestId('picture')).toHaveAttribute('data-stale', 'true');
   await expect(canvas).toBeHidden();
   await page.screenshot({ path: info.outputPath('picture-lost.png') });
@@ -79,10 +79,10 @@ test('who steers lets go when the picture is lost', async ({ page }) => {
   await expect.poll(async () => (await readout(page)).pushN).toBeGreaterThan(5);
   await losePicture(page);
   await expect.poll(async () => (await readout(page)).pushN).toBe(0);
-  await expect(page.getByTestId('picture-lost')).toContainText('let go', { timeout: 60_000 });
+  await expect(page.getByTestId('picture-lost')).toContainText('Control released', { timeout: 60_000 });
   await expect(page.getByTestId('session-state')).toHaveAttribute('data-state', 'paused');
   await givePictureBack(page);
-  await expect(page.getByTestId('practice-notice')).toContainText('You have let go');
+  await expect(page.getByTestId('practice-notice')).toContainText('Control released');
   await page.keyboard.up(' ');
 });
 
@@ -95,7 +95,7 @@ test('a session that rests is not live when the network is cut, and is again whe
   await expect(page.getByTestId('link-notice')).toContainText('It is not live');
   await expect(page.getByTestId('picture')).toHaveAttribute('data-stale', 'true');
   await page.getByTestId('to-dashboard').click();
-  await expect(page.getByTestId('no-updates')).toContainText('does not answer');
+  await expect(page.getByTestId('no-updates')).toContainText('does not respond');
   await context.setOffline(false);
   await expect(page.getByTestId('no-updates')).toBeHidden();
   await page.getByTestId('to-live').click();

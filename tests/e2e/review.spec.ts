@@ -98,9 +98,9 @@ test('a session is gone through, mapped, measured, judged and taken home', async
   await expect(shown(pane(page))).toHaveAttribute('data-map', 'plan', { timeout: 60_000 });
   await expect.poll(() => changed(page, pane(page), bare), patiently).toBeGreaterThan(5000);
   const legend = page.getByTestId('legend');
-  await expect(legend).toContainText('0.25 to 0.5 mm beyond');
-  await expect(legend).toContainText('nothing to compare');
-  await expect(page.getByTestId('breach-0')).toContainText(/none|pegs|not known/);
+  await expect(legend).toContainText('0.25 to 0.5 mm too deep');
+  await expect(legend).toContainText('not compared');
+  await expect(page.getByTestId('breach-0')).toContainText(/none|pegs|not available/);
   await page.screenshot({ path: info.outputPath('map-plan.png') });
   const report = await bone(pane(page));
   await page.getByTestId('map-scale').selectOption('coarse');
@@ -120,26 +120,26 @@ test('a session is gone through, mapped, measured, judged and taken home', async
   const middle = { x: box.x + box.width / 2, y: box.y + box.height / 2 };
   const measures = page.getByTestId('measures');
   await page.mouse.click(box.x + 5, box.y + 5);
-  await expect(measures).toContainText('no bone at that place');
+  await expect(measures).toContainText('no bone at this point');
   await page.mouse.click(middle.x - 30, middle.y);
   await page.mouse.click(middle.x + 30, middle.y);
   await expect(measures).toContainText('Distance');
   const value = async (name: string) => {
-    const row = measures.locator('dl > div').filter({ has: page.locator('dt', { hasText: name }) });
+    const row = measures.locator('dl > div').filter({ has: page.locator('dt', { hasText: new RegExp(`^${name}$`) }) });
     return Number((await row.locator('dd').textContent())?.replace('−', '-').replace(' mm', ''));
   };
-  const across = await value('Across the axis');
+  const across = await value('Distance across the axis');
   expect(across).toBeGreaterThan(2);
   expect(across).toBeLessThan(30);
   // Seen along the axis, two places are apart by what lies across it and what lies along it.
-  expect(await value('Distance')).toBeCloseTo(Math.hypot(across, await value('deeper')), 1);
-  await expect(measures).toContainText('Off the implant at 1');
+  expect(await value('Distance')).toBeCloseTo(Math.hypot(across, await value('Depth difference')), 1);
+  await expect(measures).toContainText('Implant fit at point 1');
   await page.screenshot({ path: info.outputPath('measured.png') });
   await canvas.focus();
   await page.keyboard.press('Enter');
   await expect(measures).not.toContainText('Distance');
-  await expect(measures).toContainText('Depth of 1');
-  expect(await value('Depth of 1')).toBeGreaterThan(1);
+  await expect(measures).toContainText('Depth of point 1');
+  expect(await value('Depth of point 1')).toBeGreaterThan(1);
   await page.getByTestId('clear-measure').click();
   await page.keyboard.press('e');
   await expect(page.getByTestId('measure-panel')).toHaveCount(0);

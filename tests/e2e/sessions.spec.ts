@@ -77,7 +77,7 @@ test('sessions are listed, sought, sorted, named and watched', async ({ page }) 
   await expect(page.getByTestId(`row-${second}`)).toBeVisible();
   await page.getByTestId('filter-state').selectOption('any');
   await page.getByTestId('sort-duration_s').click();
-  await expect(page.getByRole('columnheader', { name: 'Length' })).toHaveAttribute('aria-sort', 'ascending');
+  await expect(page.getByRole('columnheader', { name: 'Duration' })).toHaveAttribute('aria-sort', 'ascending');
   expect((await readout(page)).framesDrawn).toBe(framesDrawn); // the bone changes, and nobody sees it
   await page.getByTestId(`watch-${second}`).click();
   await untilLive(page);

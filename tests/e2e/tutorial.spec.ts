@@ -31,7 +31,7 @@ const untilHolding = (page: Page) =>
 /** The page says that all is done, and the server's own measure that the plan was reached. */
 async function expectReached(page: Page): Promise<void> {
   await untilStep(page, 'finished');
-  await expect(page.getByTestId('tutorial-do')).toContainText('You have reamed the demo to its plan');
+  await expect(page.getByTestId('tutorial-do')).toContainText('You have reamed the demo to the planned depth');
   await expect(page.getByTestId('results')).toBeVisible();
   const id = (await readout(page)).sessionId ?? '';
   const metrics = (await (await page.request.get(`${here.server.url}/api/v1/sessions/${id}/metrics`)).json()) as {
@@ -173,7 +173,7 @@ test('who goes too deep is told so, and starts again on intact bone', async ({ p
   await page.keyboard.down(' ');
   // Against the order of the steps: it says so, and how to go on.
   const astray = page.getByTestId('tutorial-astray');
-  await expect(astray).toContainText('on the bone already', { timeout: 60_000 });
+  await expect(astray).toContainText('already on the bone', { timeout: 60_000 });
   await expect(astray.locator('kbd').first()).toHaveText('Space');
   await page.keyboard.up(' ');
   await expect(astray).toBeHidden();

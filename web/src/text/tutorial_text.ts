@@ -16,16 +16,16 @@ const startSpindle: ByInput = {
   gamepad: 'press [A]',
 };
 const release: ByInput = {
-  mouse: 'let go of the [left button]',
+  mouse: 'release the [left button]',
   touch: 'lift the [second finger]',
-  keys: 'let go of [Space]',
-  gamepad: 'let go of the [right trigger]',
+  keys: 'release [Space]',
+  gamepad: 'release the [right trigger]',
 };
 const pressLess: ByInput = {
   mouse: 'turn the [wheel] down',
   touch: `lift the [second finger], and drag [${pushLevel}] to the left`,
   keys: 'press [−]',
-  gamepad: 'let the [right trigger] up a little',
+  gamepad: 'release the [right trigger] a little',
 };
 const pressAgain: ByInput = {
   mouse: 'hold the [left button] again',
@@ -57,9 +57,9 @@ const sentences = (of: ByInput): ByInput => ({
 /** What to do next. */
 const todo = {
   look: (): ByInput => ({
-    mouse: 'Hold [Ctrl] and drag with the [left button] to turn the picture, then hold [Ctrl] and turn the [wheel].',
+    mouse: 'Hold [Ctrl] and drag with the [left button] to rotate the picture. Then hold [Ctrl] and turn the [wheel].',
     touch: `Tap [${viewSide}] in the picture, then [${viewPlan}].`,
-    keys: 'Hold [Ctrl] and press [←] until the picture has turned, then press [Page up].',
+    keys: 'Hold [Ctrl] and press [←] until the picture has rotated. Then press [Page up].',
     gamepad: `Click [${viewSide}] in the picture, then [${viewPlan}].`,
   }),
   aim: () => sentences(aim),
@@ -77,41 +77,41 @@ const todo = {
     gamepad: 'Press the [right trigger] lightly until the reamer touches the bone.',
   }),
   press: (): ByInput => ({
-    mouse: 'Keep the [left button] held and turn the [wheel] up until the thrust is in the band; stay in the ring.',
+    mouse: 'Keep holding the [left button] and turn the [wheel] up until the thrust is in the band. Stay in the ring.',
     touch: `Drag [${pushLevel}] below the picture to 52 N, then hold both fingers in the picture again.`,
-    keys: 'Keep [Space] held and press [+] until the thrust is in the band.',
-    gamepad: 'Press the [right trigger] until the thrust is in the band; stay in the ring.',
+    keys: 'Keep holding [Space] and press [+] until the thrust is in the band.',
+    gamepad: 'Press the [right trigger] until the thrust is in the band. Stay in the ring.',
   }),
   stop: (planned: string): ByInput => ({
-    mouse: `Watch the depth, and let go of the [left button] at ${planned} mm.`,
+    mouse: `Watch the depth, and release the [left button] at ${planned} mm.`,
     touch: `Watch the depth, and lift the [second finger] at ${planned} mm.`,
-    keys: `Watch the depth, and let go of [Space] at ${planned} mm.`,
-    gamepad: `Watch the depth, and let go of the [right trigger] at ${planned} mm.`,
+    keys: `Watch the depth, and release [Space] at ${planned} mm.`,
+    gamepad: `Watch the depth, and release the [right trigger] at ${planned} mm.`,
   }),
   withdraw: (): ByInput => ({
-    mouse: `${sentence(withdraw.mouse).slice(0, -1)} until the reamer is free; let the spindle turn.`,
-    touch: `${sentence(withdraw.touch).slice(0, -1)} until the reamer is free; let the spindle turn.`,
-    keys: `${sentence(withdraw.keys).slice(0, -1)} until the reamer is free; let the spindle turn.`,
-    gamepad: `${sentence(withdraw.gamepad).slice(0, -1)} until the reamer is free; let the spindle turn.`,
+    mouse: `${sentence(withdraw.mouse).slice(0, -1)} until the reamer is free. Keep the spindle turning.`,
+    touch: `${sentence(withdraw.touch).slice(0, -1)} until the reamer is free. Keep the spindle turning.`,
+    keys: `${sentence(withdraw.keys).slice(0, -1)} until the reamer is free. Keep the spindle turning.`,
+    gamepad: `${sentence(withdraw.gamepad).slice(0, -1)} until the reamer is free. Keep the spindle turning.`,
   }),
   result: (): ByInput => ({
     mouse: `Press [${stop}] below, then read your result.`,
     touch: `Tap [${stop}] below, then read your result.`,
-    keys: `Press [Shift]+[Tab] until ${stop} is framed, then [Enter], and read your result.`,
+    keys: `Press [Shift]+[Tab] until ${stop} has a frame. Then press [Enter] and read your result.`,
     gamepad: `Click [${stop}] below, then read your result.`,
   }),
 };
 
 const why = {
-  look: `The reamer hides what it cuts; from the side you see it. The button ${viewPlan} brings this view back.`,
-  aim: 'The green ring is the planned place. What is cut beside it stays cut.',
-  spindle: 'A reamer that is pressed before it turns can catch. Without saline the bone becomes too warm.',
-  touch: `${pushLevel} is set low, so that you find the bone without a blow.`,
+  look: `The reamer hides what it cuts. From the side you can see it. The button ${viewPlan} returns to this view.`,
+  aim: 'The green ring marks the planned entry. Bone that you cut beside it does not come back.',
+  spindle: 'If you press before the reamer turns, it can catch. Without saline, the bone gets too warm.',
+  touch: `${pushLevel} is set low, so that you reach the bone gently.`,
   press:
-    'On the gauge the band is the wanted thrust, the mark is yours. The score gives all points for a mean of 35 to 70 N.',
-  stop: 'Bone that is cut too deep does not come back. What is left can still be cut.',
-  withdraw: 'A reamer that turns comes free by itself; one that stands can catch.',
-  result: 'The result says how near to the plan you came, and how you got there.',
+    'On the gauge, the band is the target thrust and the marker is your thrust. A mean of 35 to 70 N gets full points.',
+  stop: 'Bone that you cut too deep does not come back. You can always cut more later.',
+  withdraw: 'A turning reamer comes free easily. A stopped reamer can catch.',
+  result: 'The result shows how close to the plan you are, and how you worked.',
 };
 
 const done = {
@@ -126,45 +126,44 @@ const done = {
 };
 
 const strayed = {
-  tooDeep: () =>
-    `You have gone more than 0.3 mm past the plan, and that bone does not come back. Press ${again}: the same case, with intact bone.`,
-  endedEarly: () => `The session ended before the last step. Press ${again} for a new one.`,
-  notInHand: () => `The reamer is not in your hand. Take it back with [${takeOver}].`,
+  tooDeep: () => `You are more than 0.3 mm past the plan. Press [${again}] to get the same case with intact bone.`,
+  endedEarly: () => `The session ended before the last step. Press [${again}] for a new session.`,
+  notInHand: () => `You are not controlling the reamer. Press [${takeOver}].`,
   tooEarly: (input: InputKind) =>
-    `The reamer is on the bone already. First ${release[input]}, then ${withdraw[input]} a moment.`,
-  stalled: (input: InputKind) => `The bone holds the reamer. First ${withdraw[input]} a moment, then press less.`,
-  spindleOff: (input: InputKind) => `The spindle does not turn. Do not press; ${startSpindle[input]} first.`,
-  offAxis: (input: InputKind) =>
-    `The reamer stands beside the plan, or leans. First ${release[input]}, then ${aim[input]}.`,
-  tooHard: (input: InputKind) => `You press too hard. To press less, ${pressLess[input]}.`,
-  tooShallow: (input: InputKind) => `You have let go before the planned depth. To go on, ${pressAgain[input]}.`,
+    `The reamer is already on the bone. First ${release[input]}, then ${withdraw[input]} for a moment.`,
+  stalled: (input: InputKind) => `The spindle has stalled. First ${withdraw[input]} for a moment, then press less.`,
+  spindleOff: (input: InputKind) => `The spindle is off. Stop pushing, then ${startSpindle[input]}.`,
+  offAxis: (input: InputKind) => `The reamer is off the plan or tilted. First ${release[input]}, then ${aim[input]}.`,
+  tooHard: (input: InputKind) => `You are pressing too hard. To press less, ${pressLess[input]}.`,
+  tooShallow: (input: InputKind) => `You stopped before the planned depth. To continue, ${pressAgain[input]}.`,
   pressesOn: (input: InputKind) =>
-    `You press on, and the plan is reached. First ${release[input]}, then ${withdraw[input]}.`,
+    `Planned depth reached: stop pressing. First ${release[input]}, then ${withdraw[input]}.`,
 };
 
 export const tutorialText = {
   tutorial: 'Tutorial',
-  hint: 'A first reaming of the demo, step by step; about ten minutes.',
-  offer: 'New here? The tutorial takes you through a first reaming, step by step.',
+  hint: 'Your first reaming, step by step. Takes about ten minutes.',
+  offer: 'New here? The tutorial guides you through your first reaming.',
   notNow: 'Not now',
   progress: (step: number, of: number) => `Step ${step} of ${of}`,
   progressDone: 'All steps done',
   stepDone: 'done',
   skip: 'Skip tutorial',
-  skipHint: 'You keep the reamer. The tutorial stays at hand beside Practise. (Esc)',
+  skipHint: 'The session continues. You can open the tutorial again beside Practise. (Esc)',
   again,
-  againHint: 'A new session on the same case, with intact bone. This one ends and is kept.',
-  againOwnHint: 'A new session of your own on the same case. This one goes on.',
+  againHint: 'Starts a new session on the same case with intact bone. The current session ends and is saved.',
+  againOwnHint: 'Starts your own session on the same case. The current session continues.',
   close: 'Close',
   review: 'Review this session',
   todo,
   why,
   done,
   strayed,
-  closing: (depth: string, planned: string) => `You have reamed the demo to its plan: ${depth} of ${planned} mm.`,
-  closingWhy: 'The result stands beside or below the picture; the review says what to do better next time.',
+  closing: (depth: string, planned: string) =>
+    `You have reamed the demo to the planned depth: ${depth} of ${planned} mm.`,
+  closingWhy: 'The result is beside or below the picture. The review shows what to improve next time.',
   depth: 'Depth',
   thrust: 'Thrust',
-  beside: 'Beside the plan',
-  wanted: (from: string, to: string, unit: string) => `wanted: ${from} to ${to} ${unit}`,
+  beside: 'Distance from plan',
+  wanted: (from: string, to: string, unit: string) => `target: ${from} to ${to} ${unit}`,
 };

@@ -2,6 +2,7 @@ import { Backoff } from './backoff';
 import { protocolRevision, type StreamMessage } from './messages';
 import { messageOf } from './rest';
 import type { StreamSocket } from './stream_socket';
+import { problemText } from './problem_text';
 
 /**
  * - connecting: nothing was lost yet, a first picture is on its way
@@ -89,7 +90,7 @@ export class Link {
         this.retryTimer = setTimeout(() => void this.tryOnce(attempt), lookAgainMs);
         return;
       }
-      this.silenceTimer = setTimeout(() => this.lose('no hello from the server'), helloWithinMs);
+      this.silenceTimer = setTimeout(() => this.lose(problemText.noHello), helloWithinMs);
       this.callbacks.socket.open(url, {
         onMessage: (message) => this.receive(message),
         onClosed: (reason) => this.lose(reason),

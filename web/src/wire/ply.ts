@@ -1,3 +1,5 @@
+import { problemText } from './problem_text';
+
 /** Triangles with normals; lengths mm. */
 export interface Surface {
   positions: Float32Array<ArrayBuffer>;
@@ -16,7 +18,7 @@ export function readPly(bytes: ArrayBuffer): Surface {
   const { vertices, triangles, bodyAt } = header;
   const vertexBytes = vertices * 24;
   const triangleBytes = triangles * 13;
-  if (bytes.byteLength < bodyAt + vertexBytes + triangleBytes) throw new Error('the surface is cut short');
+  if (bytes.byteLength < bodyAt + vertexBytes + triangleBytes) throw new Error(problemText.surface.cutShort);
   const view = new DataView(bytes, bodyAt);
   const positions = new Float32Array(vertices * 3);
   const normals = new Float32Array(vertices * 3);
@@ -34,10 +36,10 @@ export function readPly(bytes: ArrayBuffer): Surface {
   const indices = new Uint32Array(triangles * 3);
   for (let i = 0; i < triangles; ++i) {
     const at = vertexBytes + i * 13;
-    if (view.getUint8(at) !== 3) throw new Error('the surface has faces that are no triangles');
+    if (view.getUint8(at) !== 3) throw new Error(problemText.surface.noTriangles);
     for (let k = 0; k < 3; ++k) {
       const index = view.getUint32(at + 1 + k * 4, true);
-      if (index >= vertices) throw new Error('the surface names a corner that is not there');
+      if (index >= vertices) throw new Error(problemText.surface.noCorner);
       indices[i * 3 + k] = index;
     }
   }
@@ -49,11 +51,11 @@ const headerMax = 4096;
 function readHeader(bytes: ArrayBuffer): { vertices: number; triangles: number; bodyAt: number } {
   const text = new TextDecoder('latin1').decode(new Uint8Array(bytes, 0, Math.min(bytes.byteLength, headerMax)));
   const end = /^end_header\r?\n/m.exec(text);
-  if (!text.startsWith('ply') || end === null) throw new Error('the surface is no PLY file');
+  if (!text.startsWith('ply') || end === null) throw new Error(problemText.surface.noPly);
   const head = text.slice(0, end.index);
-  if (!/^format binary_little_endian/m.test(head)) throw new Error('the surface is no binary PLY file');
+  if (!/^format binary_little_endian/m.test(head)) throw new Error(problemText.surface.noPly);
   const properties = [...head.matchAll(/^property float(?:32)? (\w+)/gm)].map((found) => found[1]).join(' ');
-  if (properties !== 'x y z nx ny nz') throw new Error(`the surface's corners have "${properties}"`);
+  if (properties !== 'x y z nx ny nz') throw new Error(problemText.surface.corners(properties));
   const count = (what: string) => Number(new RegExp(`^element ${what} (\\d+)`, 'm').exec(head)?.[1] ?? 0);
   return { vertices: count('vertex'), triangles: count('face'), bodyAt: end.index + end[0].length };
 }

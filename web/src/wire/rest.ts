@@ -1,4 +1,6 @@
-export const noAnswer = 'The simulator does not answer.';
+import { problemText } from './problem_text';
+
+export const { noAnswer } = problemText;
 
 /** What the server, or the way to it, answered instead of what was asked for; the message is for people. */
 export class ApiError extends Error {
@@ -87,7 +89,7 @@ export async function requestJson<T>(url: string, method: Method, options: CallO
   try {
     return (await response.json()) as T;
   } catch {
-    throw new ApiError('The simulator sent an answer that cannot be read.', response.status);
+    throw new ApiError(problemText.unreadable, response.status);
   }
 }
 
@@ -97,7 +99,7 @@ async function problem(response: Response): Promise<ApiError> {
   const message = [body?.detail, body?.title].find((text): text is string => typeof text === 'string' && text !== '');
   const wait = Number(response.headers.get('retry-after') ?? NaN);
   return new ApiError(
-    message ?? `The simulator answered with an error (${response.status}).`,
+    message ?? problemText.status(response.status),
     response.status,
     Number.isFinite(wait) && wait > 0 ? wait : null,
   );

@@ -1,6 +1,7 @@
 import { fetchOnceReady, waitForJob } from './job_wait';
 import { RestClient } from './rest_client';
 import type { Annotation, Score, Session } from './rest_types';
+import { problemText } from './problem_text';
 
 export const mapNames = ['plan', 'implant', 'wall'] as const;
 export type MapName = (typeof mapNames)[number];
@@ -73,7 +74,7 @@ export class ReviewApi {
       unknown: header('deviation-unknown'),
     };
     if (bytes.length !== header('deviation-vertices') || Object.values(code).some((value) => !Number.isFinite(value)))
-      throw new Error('the map does not say what its bytes mean');
+      throw new Error(problemText.mapUnexplained);
     return { bytes, code };
   }
 

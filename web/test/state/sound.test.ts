@@ -110,6 +110,6 @@ describe('the sound of the reamer', () => {
     const sound = new Sound(store, () => Promise.reject(new Error('no device')));
     await sound.toggle();
     expect(sound.on.value).toBe(false);
-    expect(sound.problem.value).toContain('no sound');
+    expect(sound.problem.value).toContain('cannot play');
   });
 });

@@ -157,11 +157,11 @@ describe('the tutorial', () => {
 describe('the words of the tutorial', () => {
   const inputs = ['mouse', 'touch', 'keys', 'gamepad'] as const;
 
-  it('are one sentence for each step and input, which names a key, a button or a gesture', () => {
+  it('are one or two sentences for each step and input, which name a key, a button or a gesture', () => {
     for (const name of stepNames)
       for (const input of inputs) {
         const text = tutorialText.todo[name]('2')[input];
-        expect(text, `${name} ${input}`).toMatch(/^[A-Z][^.!?]*\.$/);
+        expect(text, `${name} ${input}`).toMatch(/^[A-Z][^.!?]*\.( [A-Z][^.!?]*\.)?$/);
         expect(text, `${name} ${input}`).toMatch(/\[[^\]]+\]|move the pointer/i);
       }
   });

@@ -37,11 +37,11 @@ describe('readPly', () => {
   });
 
   it('refuses what it cannot show', () => {
-    expect(() => readPly(new ArrayBuffer(8))).toThrow('no PLY');
-    expect(() => readPly(ply(changed(0, 'format ascii 1.0')))).toThrow('no binary');
-    expect(() => readPly(ply(changed(2, 'element vertex 3000')))).toThrow('cut short');
-    expect(() => readPly(ply(changed(3, 'property float r')))).toThrow('corners have');
-    expect(() => readPly(ply(good, 9))).toThrow('not there');
+    expect(() => readPly(new ArrayBuffer(8))).toThrow('wrong format');
+    expect(() => readPly(ply(changed(0, 'format ascii 1.0')))).toThrow('wrong format');
+    expect(() => readPly(ply(changed(2, 'element vertex 3000')))).toThrow('incomplete');
+    expect(() => readPly(ply(changed(3, 'property float r')))).toThrow('unexpected columns');
+    expect(() => readPly(ply(good, 9))).toThrow('missing points');
   });
 
   it('reads a closed surface', () => {

@@ -216,7 +216,7 @@ function PictureRow({ view, level }: Parts) {
         {pictureChoices.map((one) => (
           <option key={one} value={one}>
             {one === 'automatic' && chosen === one
-              ? liveText.toolDrawnNow(level.value)
+              ? liveText.toolDrawnNow(liveText.toolDrawingNamed[level.value].toLowerCase())
               : liveText.toolDrawingNamed[one]}
           </option>
         ))}

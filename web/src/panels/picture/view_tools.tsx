@@ -30,6 +30,7 @@ export function ViewTools({ scene, view, reamerShown, children }: Parts) {
           type="button"
           key={name}
           data-testid={`view-${name}`}
+          title={appText.viewHint[name]}
           onClick={() => {
             view.change({ camera: 'own' });
             scene.look(name);

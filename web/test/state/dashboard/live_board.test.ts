@@ -81,10 +81,10 @@ describe('LiveBoard', () => {
   });
 
   it('is stale as soon as the server does not answer, with its words, and recovers', async () => {
-    source.fails = new ApiError('The simulator does not answer.', 0);
+    source.fails = new ApiError('The simulator does not respond.', 0);
     await pass(readEveryMs);
     expect(board.stale.value).toBe(true);
-    expect(board.problem.value).toBe('The simulator does not answer.');
+    expect(board.problem.value).toBe('The simulator does not respond.');
     expect(board.tiles.value).toHaveLength(1);
     source.fails = null;
     await pass(readEveryMs);

@@ -24,7 +24,7 @@ describe('sample size', () => {
   it('is said in a sentence, with its source', async () => {
     await form.ask();
     expect(asked).toEqual([{ question: 'means', effect: 0.8, power: 0.8 }]);
-    expect(form.answer.value).toEqual({ size: '26 persons in each of two groups.', source: 'Cohen 1988' });
+    expect(form.answer.value).toEqual({ size: '26 people in each of two groups.', source: 'Cohen 1988' });
     answer = () => Promise.resolve({ needed: 22, per_group: false, source: 'Walter 1998' });
     form.values.value = { ...form.values.value, raters: 3 };
     form.choose('agreement');
