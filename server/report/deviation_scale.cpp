@@ -13,10 +13,13 @@ constexpr render::VertexColour bone_colour{189, 183, 172, 0};
 
 const std::vector<DeviationClass>& deviation_classes() {
   static const std::vector<DeviationClass> classes = {
-      {-1.0, {179, 88, 6, 0}, "over 1 mm proud"},           {-0.5, {241, 163, 64, 0}, "0.5 to 1 mm proud"},
-      {-0.25, {254, 224, 182, 0}, "0.25 to 0.5 mm proud"},  {0.25, {247, 247, 247, 0}, "within 0.25 mm"},
-      {0.5, {216, 218, 235, 255}, "0.25 to 0.5 mm beyond"}, {1.0, {153, 142, 195, 255}, "0.5 to 1 mm beyond"},
-      {1e9, {84, 39, 136, 255}, "over 1 mm beyond"},
+      {-1.0, {179, 88, 6, 0}, "over 1 mm too high"},
+      {-0.5, {241, 163, 64, 0}, "0.5 to 1 mm too high"},
+      {-0.25, {254, 224, 182, 0}, "0.25 to 0.5 mm too high"},
+      {0.25, {247, 247, 247, 0}, "within 0.25 mm"},
+      {0.5, {216, 218, 235, 255}, "0.25 to 0.5 mm too deep"},
+      {1.0, {153, 142, 195, 255}, "0.5 to 1 mm too deep"},
+      {1e9, {84, 39, 136, 255}, "over 1 mm too deep"},
   };
   return classes;
 }

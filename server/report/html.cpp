@@ -150,9 +150,9 @@ std::string course(const Report& report) {
       rows += element("tr", cell(std::to_string(i + 1)) + cell(duration_text(remark.at_s)) +
                                 element("td", escaped(remark.words)) + cell(remark.author));
     }
-    content += text_element("h3", "Remarks") +
+    content += text_element("h3", "Comments") +
                element("table",
-                       "<thead><tr><th>No.</th><th>At</th><th>Remark</th><th>By</th></tr></thead>" +
+                       "<thead><tr><th>No.</th><th>At</th><th>Comment</th><th>By</th></tr></thead>" +
                            element("tbody", rows),
                        "remarks");
   }

@@ -271,7 +271,7 @@ void PdfPages::course() {
 
 void PdfPages::remarks() {
   if (report_.remarks.empty()) return;
-  small_heading("Remarks", 14.0);
+  small_heading("Comments", 14.0);
   for (size_t i = 0; i < report_.remarks.size(); ++i) {
     const Remark& remark = report_.remarks[i];
     const std::string said = remark.words + (remark.author.empty() ? "" : " (" + remark.author + ")");

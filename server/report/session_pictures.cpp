@@ -191,12 +191,13 @@ std::vector<Picture> session_pictures(const ReamedBone& bone) {
     pictures.push_back(face_map(bone, bone.from_plan, d));
     pictures.back().title = "Achieved against planned surface";
     pictures.back().caption =
-        "Proud: bone stands that the plan removes. Beyond (hatched): cut deeper than planned.";
+        "Too high: bone that the plan removes is left. Too deep (hatched): deeper than planned.";
   }
   if (!bone.from_implant.empty()) {
     pictures.push_back(face_map(bone, bone.from_implant, d));
     pictures.back().title = "Gap to the seated implant";
-    pictures.back().caption = "Proud: bone would stand into the implant. Beyond (hatched): a gap behind it.";
+    pictures.back().caption =
+        "Too high: bone stands where the implant is. Too deep (hatched): a gap behind the implant.";
   }
   if (!bone.wall.empty()) pictures.push_back(wall_map(bone, d));
   pictures.push_back(axes_from_below(bone, d));

@@ -9,8 +9,8 @@ std::vector<record::ops::Event> SessionEvents::of(const record::TickReport& repo
   const bool lost = report.link == device::LinkState::lost;
   if (lost && been_there_ && !lost_) events.push_back({report.tick, "device_lost", device_lost_words});
   if (!lost && begun_ && lost_)
-    events.push_back(
-        {report.tick, "device_back", been_there_ ? "The device is back." : "The device is there."});
+    events.push_back({report.tick, "device_back",
+                      been_there_ ? "The device has reconnected." : "The device is connected."});
   begun_ = true;
   been_there_ |= !lost;
   lost_ = lost;

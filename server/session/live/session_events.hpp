@@ -9,9 +9,9 @@ namespace ream::session {
 
 /// While its device is lost, in the words of a session for people.
 inline constexpr const char* device_lost_words =
-    "The device stopped answering; force off. The session rests until it is back.";
+    "The device does not respond; the force is off. The session is paused until it reconnects.";
 inline constexpr const char* device_awaited_words =
-    "No device has connected yet; the session rests until one does.";
+    "No device is connected yet; the session is paused until one is.";
 
 /// Finds in the ticks of a session, one after the other, what its recording names as an event: the device was
 /// lost or came (back), and the spindle was started while the reamer was already pressed against bone.
