@@ -9,6 +9,7 @@ import type { CaseListController } from '../state/case/new_case';
 import { addressOfRoute } from '../state/route';
 import type { CaseSummary } from '../wire/rest_types';
 import { Button } from '../panels/common/button';
+import { ActionsColumn } from '../panels/common/actions_column';
 
 const readAgainMs = 5000;
 
@@ -42,7 +43,7 @@ export function CasesPage({ controller, mayEdit }: { controller: CaseListControl
                 <th scope="col">{caseText.sideColumn}</th>
                 <th scope="col">{caseText.stageColumn}</th>
                 <th scope="col">{caseText.voxelsColumn}</th>
-                <th />
+                <ActionsColumn />
               </tr>
             </thead>
             <tbody>

@@ -49,7 +49,7 @@ export const caseText = {
   seriesUid: 'Series instance UID, where the ZIP holds several series',
   make: 'Upload and read',
   goOn: 'Go on',
-  uploading: (percent: string, sent: string, all: string) => `Sending: ${percent} % (${sent} of ${all} MB)`,
+  uploading: (percent: string, sent: string, all: string) => `Sending: ${percent} (${sent} of ${all} MB)`,
   uploadWaiting: 'The link is lost; the upload continues by itself when it is back.',
   uploadFailed: 'The upload has stopped',
   uploadFailedHint: 'What has arrived is kept. “Go on” continues where it stopped.',
@@ -73,7 +73,6 @@ export const caseText = {
         : job.state === 'failed'
           ? 'Failed'
           : job.step,
-  percent: (share: number) => `${Math.floor(share * 100)} %`,
   dismiss: 'Dismiss',
   problem: 'That did not work',
 

@@ -3,7 +3,7 @@ import { useSignal } from '@preact/signals';
 import { caseText } from '../../text/case_text';
 import type { CaseListController, NewCaseState } from '../../state/case/new_case';
 import type { Side } from '../../wire/rest_types';
-import { fixed } from '../../text/format';
+import { fixed, percent } from '../../text/format';
 import { Message } from '../common/fields';
 import { JobProgress, ProgressBar } from './job_progress';
 import { Button } from '../common/button';
@@ -141,7 +141,7 @@ function Progress({ controller, state }: { controller: CaseListController; state
       return null;
     case 'uploading': {
       const share = state.bytes === 0 ? 1 : state.received / state.bytes;
-      const text = caseText.uploading(fixed(share * 100, 0), megabytes(state.received), megabytes(state.bytes));
+      const text = caseText.uploading(percent(share), megabytes(state.received), megabytes(state.bytes));
       return (
         <div class="job" role="status" data-testid="upload" data-waiting={state.waiting}>
           <p>{text}</p>

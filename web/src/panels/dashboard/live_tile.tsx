@@ -3,7 +3,7 @@ import type { Tile } from '../../state/dashboard/live_board';
 import { alarmsOf, type TileAlarm } from '../../state/dashboard/tile_alarms';
 import type { Session } from '../../wire/rest_types';
 import { appText } from '../../text/app_text';
-import { clock, fixed, minutes } from '../../text/format';
+import { clock, duration, fixed } from '../../text/format';
 
 /** Who trains, in words that are never empty. */
 export function traineeLabel({ trainee, participant, device, title }: Session): string {
@@ -83,7 +83,7 @@ function Figures({ tile: { session, soFar, plannedDepthMm } }: { tile: Tile }) {
         </span>
       </Pair>
       <Pair name={dashboardText.removed}>{dashboardText.cubicMm(fixed(soFar?.removed_volume_mm3, 0))}</Pair>
-      <Pair name={dashboardText.time}>{minutes(soFar?.duration_s ?? session.duration_s)}</Pair>
+      <Pair name={dashboardText.time}>{duration(soFar?.duration_s ?? session.duration_s)}</Pair>
     </dl>
   );
 }

@@ -5,7 +5,7 @@ import type { ReviewSession } from '../../state/review/review_session';
 import { messageOf } from '../../wire/rest';
 import { exportFormats, type ExportFormat, type ReviewApi } from '../../wire/review_api';
 import { Message } from '../common/fields';
-import { fixed, sentence } from '../../text/format';
+import { percent, sentence } from '../../text/format';
 import { lazyPart } from '../common/lazy_part';
 import { useIdentity } from '../common/site_nav';
 import { Button } from '../common/button';
@@ -76,7 +76,7 @@ function ExportButton({ session, review, format }: ExportParts) {
     <>
       <Button testId={`export-${format}`} title={hint} disabled={share.value !== null} onClick={() => void make()}>
         {label}
-        {share.value !== null && <span role="status"> {reviewText.making(fixed(share.value * 100, 0))}</span>}
+        {share.value !== null && <span role="status"> {reviewText.making(percent(share.value))}</span>}
       </Button>
       {problem.value !== null && (
         <Message kind="bad" testId={`export-problem-${format}`}>

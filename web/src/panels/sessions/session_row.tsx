@@ -6,7 +6,7 @@ import { addressOfRoute } from '../../state/route';
 import type { SessionBrowser } from '../../state/sessions/session_browser';
 import type { Session } from '../../wire/rest_types';
 import { appText } from '../../text/app_text';
-import { dayAndTime, minutes } from '../../text/format';
+import { dayAndTime, duration } from '../../text/format';
 import { useFocusAfter } from '../common/focus_after';
 import { ConfirmButton } from '../common/confirm_dialog';
 import { useIdentity } from '../common/site_nav';
@@ -38,7 +38,7 @@ export function SessionRow({ session, browser, watch, replay }: Parts) {
       <td>
         <span class={`session-word session-${session.state}`}>{appText.state[session.state]}</span>
       </td>
-      <td class="number">{minutes(session.duration_s)}</td>
+      <td class="number">{duration(session.duration_s)}</td>
       <td class="actions">
         {live && session.streamable && (
           <Button

@@ -3,6 +3,7 @@ import type { SessionBrowser } from '../../state/sessions/session_browser';
 import type { Session } from '../../wire/rest_types';
 import type { SortKey } from '../../wire/session_list_api';
 import { SessionRow } from './session_row';
+import { ActionsColumn } from '../common/actions_column';
 
 const columns: readonly (readonly [SortKey | null, string])[] = [
   ['created_utc', sessionText.whenColumn],
@@ -51,7 +52,7 @@ export function SessionTable({ browser, watch, replay }: Parts) {
                 )}
               </th>
             ))}
-            <th />
+            <ActionsColumn />
           </tr>
         </thead>
         <tbody>

@@ -1,0 +1,4 @@
+/** Words that several pages share. */
+export const pageText = {
+  actions: 'Actions',
+};
