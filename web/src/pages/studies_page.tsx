@@ -69,7 +69,7 @@ function Table({ studies, mayRun }: { studies: readonly Study[]; mayRun: boolean
               </td>
               {mayRun && <td class="number">{study.participants}</td>}
               <td>{study.participant}</td>
-              <td class="soft">{dayAndTime(study.created_utc)}</td>
+              <td class="soft when">{dayAndTime(study.created_utc)}</td>
             </tr>
           ))}
         </tbody>

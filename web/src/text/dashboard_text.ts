@@ -8,7 +8,7 @@ export const dashboardText = {
   noUpdates: (clock: string) => `No updates since ${clock}. What is shown is not live; the page tries again by itself.`,
   neverLoaded: 'The page tries again by itself.',
   unnamed: 'Without a name',
-  scripted: 'Scripted hand',
+  scripted: 'Demo',
   byParticipant: (code: string) => `Participant ${code}`,
   watchTile: (who: string, caseId: string) => `Watch ${who} on ${caseId}`,
   pictureOf: (clock: string) => `The bone at ${clock}`,

@@ -36,8 +36,10 @@ export function LinkPanel({ api }: { api: AccessApi }) {
                 <tr key={link.id}>
                   <td>{link.name || <span class="soft">{accessText.unnamed}</span>}</td>
                   <td>{link.session === null ? accessText.allSessions : accessText.oneSession(link.session)}</td>
-                  <td>{link.last_used_utc === null ? accessText.never : dayAndTime(link.last_used_utc)}</td>
-                  <td>{dayYearAndTime(link.expires_utc)}</td>
+                  <td class="when">
+                    {link.last_used_utc === null ? accessText.never : dayAndTime(link.last_used_utc)}
+                  </td>
+                  <td class="when">{dayYearAndTime(link.expires_utc)}</td>
                   <td class="actions">
                     <ConfirmButton
                       label={accessText.revoke}

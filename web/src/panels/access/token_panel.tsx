@@ -51,8 +51,10 @@ export function TokenPanel({ api, userId, nameOf }: Parts) {
                 <tr key={token.id}>
                   <td>{token.name}</td>
                   {nameOf !== undefined && <td>{nameOf(token.user_id)}</td>}
-                  <td>{token.last_used_utc === null ? accessText.never : dayAndTime(token.last_used_utc)}</td>
-                  <td>{dayYearAndTime(token.expires_utc)}</td>
+                  <td class="when">
+                    {token.last_used_utc === null ? accessText.never : dayAndTime(token.last_used_utc)}
+                  </td>
+                  <td class="when">{dayYearAndTime(token.expires_utc)}</td>
                   <td class="actions">
                     <ConfirmButton
                       label={accessText.revoke}

@@ -74,7 +74,7 @@ function UserRow({ user, api, users }: Parts & { user: User }) {
           {user.enabled ? accessText.enabled : accessText.disabled}
         </span>
       </td>
-      <td>{dayAndTime(user.created_utc)}</td>
+      <td class="when">{dayAndTime(user.created_utc)}</td>
       <td class="actions">
         <NewPassword user={user} busy={busy} onSet={(password) => change({ password })} />
         <Button

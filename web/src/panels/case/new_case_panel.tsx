@@ -1,14 +1,15 @@
 import { useSignal } from '@preact/signals';
 
 import { caseText } from '../../text/case_text';
+import { ctEndings } from '../../state/case/ct_file';
 import type { CaseListController, NewCaseState } from '../../state/case/new_case';
 import type { Side } from '../../wire/rest_types';
-import { fixed, percent } from '../../text/format';
+import { fixed, percent, sentence } from '../../text/format';
 import { Message } from '../common/fields';
 import { JobProgress, ProgressBar } from './job_progress';
 import { Button } from '../common/button';
 
-const accepted = '.zip,.nrrd,.nii,.nii.gz,.gz,.mha,.txt,.dcm';
+const accepted = [...ctEndings, '.gz'].join();
 const megabytes = (bytes: number) => fixed(bytes / 1e6, 1);
 
 /** A CT's file, whose shoulder it is, and how far its upload and reading are. */
@@ -21,6 +22,11 @@ export function NewCasePanel({ controller }: { controller: CaseListController })
     <aside class="new-case" aria-label={caseText.newCase}>
       <h2>{caseText.newCase}</h2>
       <FilePlace controller={controller} disabled={underWay} />
+      {controller.refused.value !== null && (
+        <Message kind="bad" testId="file-refused">
+          {controller.refused.value}
+        </Message>
+      )}
       <p class="soft">{caseText.newCaseHint}</p>
       <fieldset class="side-choice" disabled={underWay}>
         <legend>{caseText.whichSide}</legend>
@@ -70,7 +76,7 @@ export function NewCasePanel({ controller }: { controller: CaseListController })
           disabled={file === null || side === null}
           onClick={() => void controller.make()}
         >
-          {state.kind === 'failed' && state.during === 'upload' ? caseText.goOn : caseText.make}
+          {state.kind === 'failed' && state.resumable ? caseText.goOn : caseText.make}
         </Button>
       )}
       {!underWay && file !== null && side === null && <p class="soft">{caseText.sideMustBeChosen}</p>}
@@ -163,10 +169,10 @@ function Progress({ controller, state }: { controller: CaseListController; state
         />
       );
     case 'failed': {
-      const during = state.during === 'upload';
+      const during = state.resumable;
       return (
         <Message kind="bad" testId="new-case-failed">
-          <strong>{during ? caseText.uploadFailed : caseText.importFailed}.</strong> {state.message}{' '}
+          <strong>{during ? caseText.uploadFailed : caseText.importFailed}.</strong> {sentence(state.message)}{' '}
           {during ? caseText.uploadFailedHint : caseText.importFailedHint}
         </Message>
       );

@@ -4,14 +4,7 @@ import { alarmsOf, type TileAlarm } from '../../state/dashboard/tile_alarms';
 import type { Session } from '../../wire/rest_types';
 import { appText } from '../../text/app_text';
 import { clock, duration, fixed } from '../../text/format';
-
-/** Who trains, in words that are never empty. */
-export function traineeLabel({ trainee, participant, device, title }: Session): string {
-  if (trainee) return trainee;
-  if (participant) return dashboardText.byParticipant(participant);
-  if (title) return title;
-  return device.name === 'script' ? dashboardText.scripted : dashboardText.unnamed;
-}
+import { traineeLabel } from '../common/trainee_label';
 
 /** One session under way: who, what the bone looks like, the figures that matter, and what is wrong. */
 export function LiveTile({ tile, old, watch }: { tile: Tile; old: boolean; watch: (id: string) => void }) {

@@ -1,6 +1,7 @@
 import type { Pane } from './review_workspace';
 import { reviewText } from '../../text/review_text';
 import { appText } from '../../text/app_text';
+import { isDemo, traineeLabel } from '../common/trainee_label';
 import { dayAndTime, duration } from '../../text/format';
 
 /** Of whom and when the sessions are. */
@@ -12,7 +13,7 @@ export function FactsPanel({ panes }: { panes: readonly Pane[] }) {
         const hello = session.store.hello.value;
         const who = details?.trainee || details?.participant || '';
         const facts = [
-          who === '' ? '' : appText.trainedBy(who),
+          details !== null && isDemo(details) ? traineeLabel(details) : who === '' ? '' : appText.trainedBy(who),
           (details?.attempt ?? 1) > 1 ? appText.attempt(details?.attempt ?? 1) : '',
           details === null ? '' : dayAndTime(details.created_utc),
           details === null ? '' : duration(details.duration_s),

@@ -1,3 +1,4 @@
+import { pageText } from '../../text/page_text';
 import { sessionText } from '../../text/session_text';
 import type { SessionBrowser } from '../../state/sessions/session_browser';
 import type { Session } from '../../wire/rest_types';
@@ -52,6 +53,10 @@ export function SessionTable({ browser, watch, replay }: Parts) {
                 )}
               </th>
             ))}
+            <th scope="col" class="number">
+              {pageText.points}
+            </th>
+            <th scope="col">{pageText.result}</th>
             <ActionsColumn />
           </tr>
         </thead>
