@@ -54,6 +54,21 @@ test('shows who reams with figures and picture, what has ended with its points, 
   await expect(page.getByTestId('no-learner')).toBeVisible();
   await info.attach('learning', { body: await page.screenshot({ fullPage: true }), contentType: 'image/png' });
 
+  // From here to what an instructor wants of it.
+  await expect(page.getByTestId(`recent-${first}`)).toContainText('Demo');
+  await expect(page.getByTestId(`recent-${first}`)).not.toContainText('Tom Trainee');
+  await expect(page.getByTestId(`recent-review-${first}`)).toHaveAttribute('href', `#/review/${first}`);
+  const [report] = await Promise.all([page.waitForEvent('download'), page.getByTestId(`report-${first}`).click()]);
+  expect(report.suggestedFilename()).toMatch(/\.pdf$/);
+  await page.getByTestId('to-sessions').click();
+  const row = page.getByTestId(`row-${first}`);
+  await expect(row).toContainText('Demo');
+  await expect(page.getByTestId(`points-${first}`)).toHaveText(/^\d+\.\d$/);
+  await expect(row).toContainText(/Passed|Failed|Undecided/);
+  await expect(page.getByTestId(`review-${first}`)).toBeVisible();
+  await expect(page.getByTestId(`report-${first}`)).toBeVisible();
+  await page.getByTestId('to-dashboard').click();
+
   await page.getByTestId(`recent-replay-${first}`).click();
   await page.waitForFunction((of) => window.__ream.replayOf === of, first, { timeout: 60_000 });
 });

@@ -101,12 +101,14 @@ export async function goThroughEveryPage(
   await look('review');
   for (const [name, hash, testId] of [
     ['sessions', '#/sessions', `row-${ended}`],
+    ['trash', '#/trash', 'trash'],
     ['cases', '#/cases', 'cases'],
     ['case', '#/cases/demo', 'surface'],
     ['studies', '#/studies', 'make-study'],
     ['study', `#/studies/${study.id}`, 'study-title'],
     ['questionnaire', `#/studies/${study.id}/answers/${code}`, 'questionnaire'],
     ['users', '#/users', 'user-tom'],
+    ['audit', '#/audit', 'audit'],
     ['account', '#/account', 'change-password'],
   ] as const) {
     await open(hash);

@@ -110,7 +110,7 @@ function Entries({ entries }: { entries: readonly AuditEntry[] }) {
               </td>
               <td>{wordsOf(entry.action)}</td>
               <td class="when">{entry.object}</td>
-              <td>{entry.detail}</td>
+              <td class="words">{entry.detail}</td>
               <td class="when">{entry.address || auditText.commandLine}</td>
             </tr>
           ))}

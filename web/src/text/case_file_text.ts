@@ -6,9 +6,8 @@ export const caseFileText = {
 
   planColumn: 'Plan',
   noPlan: 'no plan',
-  planSummary: (depth: string, reamer: string) => `${depth} mm deep, ${reamer}`,
-  planSummaryWithVersion: (depth: string, reamer: string, version: string) =>
-    `${depth} mm deep, ${reamer}, aims at ${version}`,
+  planSummary: (depth: string) => `${depth} mm deep`,
+  planSummaryWithVersion: (depth: string, version: string) => `${depth} mm deep, aims at ${version}`,
   practise: 'Practise',
   practiseOn: (name: string) => `Practise on ${name}`,
 

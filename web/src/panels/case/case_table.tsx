@@ -100,8 +100,8 @@ function PlanSummary({ one, plan }: { one: CaseSummary; plan: Plan | undefined }
   if (!one.planned) return <span class="soft">{caseFileText.noPlan}</span>;
   if (plan === undefined) return null;
   const depth = fixed(plan.depth_mm, 1);
-  if (plan.version_deg === undefined) return <>{caseFileText.planSummary(depth, plan.reamer)}</>;
-  return <>{caseFileText.planSummaryWithVersion(depth, plan.reamer, versionText(plan.version_deg))}</>;
+  if (plan.version_deg === undefined) return <>{caseFileText.planSummary(depth)}</>;
+  return <>{caseFileText.planSummaryWithVersion(depth, versionText(plan.version_deg))}</>;
 }
 
 function RowActions({ one, controller, mayEdit, starting, practise }: RowParts) {

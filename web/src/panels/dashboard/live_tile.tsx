@@ -1,7 +1,6 @@
 import { dashboardText } from '../../text/dashboard_text';
 import type { Tile } from '../../state/dashboard/live_board';
 import { alarmsOf, type TileAlarm } from '../../state/dashboard/tile_alarms';
-import type { Session } from '../../wire/rest_types';
 import { appText } from '../../text/app_text';
 import { clock, duration, fixed } from '../../text/format';
 import { traineeLabel } from '../common/trainee_label';

@@ -13,9 +13,13 @@ export interface StepFacts {
   planBeforeLandmarks: boolean;
 }
 
-/** Neither a humeral head was found, nor did anybody say where the shoulder is: what is called scapula may be any bone. */
+/** The label of the humerus among the parts. */
+const humerusLabel = 2;
+
+/** No humerus was found, nor did anybody say where the shoulder is: what is called scapula may be any bone. */
 export function lacksShoulder(segmentation: Case['segmentation']): boolean {
   if (segmentation === null || segmentation.humeral_head !== null) return false;
+  if (segmentation.parts.some(({ label }) => label === humerusLabel)) return false;
   const { humerus, scapula } = segmentation.settings.seeds ?? {};
   return humerus === undefined && scapula === undefined;
 }
