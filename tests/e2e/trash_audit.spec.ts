@@ -45,7 +45,7 @@ test('a deleted session is found and restored; the audit log says who did it, an
   const table = page.getByTestId('audit').locator('tbody');
   await expect(table).toContainText('Restored a session');
   await page.getByTestId('audit-search').fill(id);
-  await expect(table.locator('tr').first()).toContainText('ines');
+  await expect(table.locator('tr').first()).toContainText('Ines Instructor');
   await expect(page.getByTestId('audit-count')).toContainText(' of ');
   await page.getByTestId('audit-action').selectOption('session.restore');
   await expect(table.locator('tr')).toHaveCount(1);

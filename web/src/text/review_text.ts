@@ -19,7 +19,7 @@ export const reviewText = {
   errors: {
     gone: {
       title: 'This session does not exist',
-      text: 'It was deleted, or the address is wrong. Instructors and operators can take a deleted session back right after deleting it in the list of sessions, or by “restore” of the REST interface.',
+      text: 'It was deleted, or the address is wrong. Instructors and operators can restore it under Sessions, Deleted sessions.',
     },
     live: {
       title: 'This session is still running',

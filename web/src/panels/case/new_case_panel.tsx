@@ -1,5 +1,6 @@
 import { useSignal } from '@preact/signals';
 
+import { caseFileText } from '../../text/case_file_text';
 import { caseText } from '../../text/case_text';
 import { ctEndings } from '../../state/case/ct_file';
 import type { CaseListController, NewCaseState } from '../../state/case/new_case';
@@ -24,7 +25,7 @@ export function NewCasePanel({ controller }: { controller: CaseListController })
       <FilePlace controller={controller} disabled={underWay} />
       {controller.refused.value !== null && (
         <Message kind="bad" testId="file-refused">
-          {controller.refused.value}
+          {caseFileText[controller.refused.value.why](controller.refused.value.name)}
         </Message>
       )}
       <p class="soft">{caseText.newCaseHint}</p>

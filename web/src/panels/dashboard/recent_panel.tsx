@@ -9,7 +9,7 @@ import { appText } from '../../text/app_text';
 import { dayAndTime, fixed } from '../../text/format';
 import { Message } from '../common/fields';
 import { traineeLabel } from '../common/trainee_label';
-import { ReportButton } from '../sessions/report_button';
+import { ReportButton } from '../common/report_button';
 import { OutcomeMark } from './outcome_mark';
 import { Button } from '../common/button';
 

@@ -13,7 +13,7 @@ import { useIdentity } from '../common/site_nav';
 import { Button } from '../common/button';
 import { isDemo, traineeLabel } from '../common/trainee_label';
 import { OutcomeMark } from '../dashboard/outcome_mark';
-import { ReportButton } from './report_button';
+import { ReportButton } from '../common/report_button';
 
 interface Parts {
   session: Session;

@@ -13,13 +13,13 @@ export interface StepFacts {
   planBeforeLandmarks: boolean;
 }
 
-/** The label of the humerus among the parts. */
-const humerusLabel = 2;
-
-/** No humerus was found, nor did anybody say where the shoulder is: what is called scapula may be any bone. */
+/**
+ * No humeral head was found, which the server remarks on, nor did anybody say where the shoulder is: what is called scapula
+ * may be any bone. Cases that were not segmented here, such as phantoms, have neither head nor remark.
+ */
 export function lacksShoulder(segmentation: Case['segmentation']): boolean {
   if (segmentation === null || segmentation.humeral_head !== null) return false;
-  if (segmentation.parts.some(({ label }) => label === humerusLabel)) return false;
+  if (segmentation.warnings.length === 0) return false;
   const { humerus, scapula } = segmentation.settings.seeds ?? {};
   return humerus === undefined && scapula === undefined;
 }

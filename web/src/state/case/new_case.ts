@@ -4,7 +4,7 @@ import type { CaseApi } from '../../wire/case_api';
 import type { CaseSummary, Job, Side } from '../../wire/rest_types';
 import { ApiError, messageOf } from '../../wire/rest';
 import { CasePlans } from './case_plans';
-import { refusedFile } from './ct_file';
+import { type RefusedFile, refusedFile } from './ct_file';
 import { followJob, pause } from './job_watch';
 import { dropUpload, forgetUpload, uploadFile, type UploadSource } from './upload';
 
@@ -33,7 +33,7 @@ export class CaseListController {
   readonly listProblem = signal<string | null>(null);
   readonly file = signal<UploadSource | null>(null);
   /** Why the file that was chosen last cannot be used. */
-  readonly refused = signal<string | null>(null);
+  readonly refused = signal<RefusedFile | null>(null);
   /** Never guessed: the user says which shoulder it is. */
   readonly side = signal<Side | null>(null);
   readonly options = signal<NewCaseOptions>({ name: '', seriesUid: '' });

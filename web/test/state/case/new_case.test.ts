@@ -3,6 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { CaseListController } from '../../../src/state/case/new_case';
 import { refusedFile } from '../../../src/state/case/ct_file';
 import type { CaseApi } from '../../../src/wire/case_api';
+import { caseFileText } from '../../../src/text/case_file_text';
 import { ApiError } from '../../../src/wire/rest';
 
 const file = (name: string, size = 10) => ({
@@ -25,15 +26,16 @@ describe('a file for a case', () => {
     for (const name of ['ct.zip', 'CT.ZIP', 'a.nrrd', 'a.nii', 'a.nii.gz', 'a.mha', 'a.txt', 'a.b.dcm'])
       expect(refusedFile(file(name))).toBeNull();
     for (const name of ['photo.png', 'zip', 'ct.zip.exe', 'a.gz', 'notes.docx'])
-      expect(refusedFile(file(name))).toMatch(/is not a CT.*ZIP of DICOM/);
-    expect(refusedFile(file('ct.zip', 0))).toMatch(/empty/);
+      expect(refusedFile(file(name))).toEqual({ name, why: 'notACt' });
+    expect(refusedFile(file('ct.zip', 0))?.why).toBe('empty');
+    expect(caseFileText.notACt('photo.png')).toMatch(/photo.png.*is not a CT.*ZIP of DICOM/);
   });
 
   it('is refused when it is chosen; what was chosen before stays', () => {
     const controller = controllerWith(new ApiError('', 0));
     controller.choose(file('ct.zip'));
     controller.choose(file('photo.png'));
-    expect(controller.refused.value).toContain('photo.png');
+    expect(controller.refused.value?.name).toBe('photo.png');
     expect(controller.file.value?.name).toBe('ct.zip');
     controller.choose(file('other.zip'));
     expect([controller.refused.value, controller.file.value?.name]).toEqual([null, 'other.zip']);

@@ -4,7 +4,7 @@ import { pageText } from '../../text/page_text';
 import { percent } from '../../text/format';
 import { messageOf } from '../../wire/rest';
 import { ReviewApi } from '../../wire/review_api';
-import { Button } from '../common/button';
+import { Button } from './button';
 
 const review = new ReviewApi(window.location.origin);
 
