@@ -4,6 +4,8 @@ export const caseFileText = {
     `“${name}” is not a CT that can be read. Choose a ZIP of DICOM files, or one NRRD, NIfTI (.nii, .nii.gz), MHA, DICOM (.dcm) or text (.txt) file.`,
   empty: (name: string) => `“${name}” is empty. Choose another file.`,
 
+  picture: 'Slices’ brightness and parts',
+
   planColumn: 'Plan',
   noPlan: 'no plan',
   planSummary: (depth: string) => `${depth} mm deep`,
