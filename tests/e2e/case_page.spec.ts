@@ -246,6 +246,12 @@ test('an upload survives a broken link, and what cannot be read is said', async 
   await page.getByTestId('to-cases').click();
   await expect(page.getByTestId('cases')).toContainText('shoulder');
   const notes = Buffer.from('these are notes, no pictures');
+  // What can never be a CT is refused when it is chosen.
+  await page.getByTestId('file').setInputFiles({ name: 'photo.png', mimeType: 'image/png', buffer: notes });
+  await expect(page.getByTestId('file-refused')).toContainText('photo.png');
+  await expect(page.getByTestId('file-refused')).toContainText('ZIP of DICOM');
+  await page.getByTestId('side-right').check();
+  await expect(page.getByTestId('make-case')).toBeDisabled();
   await page.getByTestId('file').setInputFiles({ name: 'notes.zip', mimeType: 'application/zip', buffer: notes });
   await page.getByTestId('side-right').check();
   await page.getByTestId('make-case').click();

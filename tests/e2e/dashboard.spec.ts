@@ -31,7 +31,9 @@ test('shows who reams with figures and picture, what has ended with its points, 
 
   const first = await startDemo(trainee, here.server.url);
   const tile = page.getByTestId(`tile-${first}`);
-  await expect(tile).toContainText('Tom Trainee');
+  // Whoever starts a demo, it is nobody's.
+  await expect(tile).toContainText('Demo');
+  await expect(tile).not.toContainText('Tom Trainee');
   await expect(tile).toHaveAttribute('data-state', 'running');
   await expect(tile.getByRole('img')).toBeVisible({ timeout: 60_000 });
   await expect(tile).toContainText(/\d\.\d\d of 1\.0 mm/, { timeout: 60_000 });
@@ -51,6 +53,21 @@ test('shows who reams with figures and picture, what has ended with its points, 
   // A demo counts for nobody's course of learning.
   await expect(page.getByTestId('no-learner')).toBeVisible();
   await info.attach('learning', { body: await page.screenshot({ fullPage: true }), contentType: 'image/png' });
+
+  // From here to what an instructor wants of it.
+  await expect(page.getByTestId(`recent-${first}`)).toContainText('Demo');
+  await expect(page.getByTestId(`recent-${first}`)).not.toContainText('Tom Trainee');
+  await expect(page.getByTestId(`recent-review-${first}`)).toHaveAttribute('href', `#/review/${first}`);
+  const [report] = await Promise.all([page.waitForEvent('download'), page.getByTestId(`report-${first}`).click()]);
+  expect(report.suggestedFilename()).toMatch(/\.pdf$/);
+  await page.getByTestId('to-sessions').click();
+  const row = page.getByTestId(`row-${first}`);
+  await expect(row).toContainText('Demo');
+  await expect(page.getByTestId(`points-${first}`)).toHaveText(/^\d+\.\d$/);
+  await expect(row).toContainText(/Passed|Failed|Undecided/);
+  await expect(page.getByTestId(`review-${first}`)).toBeVisible();
+  await expect(page.getByTestId(`report-${first}`)).toBeVisible();
+  await page.getByTestId('to-dashboard').click();
 
   await page.getByTestId(`recent-replay-${first}`).click();
   await page.waitForFunction((of) => window.__ream.replayOf === of, first, { timeout: 60_000 });

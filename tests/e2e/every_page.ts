@@ -10,7 +10,7 @@ export const olga: TestUser = { name: 'olga', role: 'operator', displayName: 'Ol
 export const tom: TestUser = { name: 'tom', role: 'trainee', displayName: 'Tom Trainee' };
 
 /** Whose session it is; only staff's are nobody's. */
-async function assignSession(page: Page, session: string, { name, displayName }: TestUser): Promise<void> {
+export async function assignSession(page: Page, session: string, { name, displayName }: TestUser): Promise<void> {
   const { users } = (await (await page.request.get(new URL('/api/v1/users', page.url()).href)).json()) as {
     users: { id: string; name: string }[];
   };
@@ -101,12 +101,14 @@ export async function goThroughEveryPage(
   await look('review');
   for (const [name, hash, testId] of [
     ['sessions', '#/sessions', `row-${ended}`],
+    ['trash', '#/trash', 'trash'],
     ['cases', '#/cases', 'cases'],
     ['case', '#/cases/demo', 'surface'],
     ['studies', '#/studies', 'make-study'],
     ['study', `#/studies/${study.id}`, 'study-title'],
     ['questionnaire', `#/studies/${study.id}/answers/${code}`, 'questionnaire'],
     ['users', '#/users', 'user-tom'],
+    ['audit', '#/audit', 'audit'],
     ['account', '#/account', 'change-password'],
   ] as const) {
     await open(hash);

@@ -2,6 +2,7 @@ import { expect, type Page } from '@playwright/test';
 
 /** A call of the REST interface by the cookie of the page, as the page itself would make it; throws for a refusal. */
 export const post = <T = { id: string }>(page: Page, path: string, body?: object) => call<T>(page, 'POST', path, body);
+export const remove = (page: Page, path: string) => call<null>(page, 'DELETE', path);
 export const patch = <T>(page: Page, path: string, body: object) => call<T>(page, 'PATCH', path, body);
 
 async function call<T>(page: Page, method: string, path: string, body?: object): Promise<T> {
@@ -11,7 +12,7 @@ async function call<T>(page: Page, method: string, path: string, body?: object):
       const headers = { 'content-type': 'application/json', 'x-csrf-token': visitor.csrf_token ?? '' };
       const answer = await fetch(`/api/v1/${to}`, { method, headers, body: data && JSON.stringify(data) });
       if (!answer.ok) throw new Error(`${to}: ${answer.status} ${await answer.text()}`);
-      return (await answer.json()) as unknown;
+      return answer.status === 204 ? null : ((await answer.json()) as unknown);
     },
     [method, path, body] as const,
   )) as T;

@@ -278,4 +278,7 @@ test('says what is wrong and what to do: links that end, a server that is gone, 
   await page.goto(`${here.server.url}/#/review/nosuch12`);
   await expect(sessionError).toHaveAttribute('data-kind', 'gone');
   expect(await picture(sessionError)).not.toBe('');
+  await expect(page.getByTestId('export-pdf')).toBeDisabled();
+  await expect(page.getByTestId('score-file')).toHaveAttribute('aria-disabled', 'true');
+  await expect(page.getByTestId('score-file')).not.toHaveAttribute('href', /./);
 });

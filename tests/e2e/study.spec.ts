@@ -146,6 +146,7 @@ test('a trainee takes part, trains and answers; who watches sees the code until 
 test('an instructor enrols somebody without an account and trains with their code', async ({ browser }) => {
   const page = await windowOf(browser, ines);
   await makeStudy(page);
+  await expect(page.getByTestId('copy-join-code')).toHaveAccessibleName('Copy join code');
   await expect(page.getByTestId('enrol-user')).toBeHidden();
   await page.getByTestId('experience').selectOption('expert');
   await page.getByTestId('procedures').fill('120');

@@ -1,6 +1,7 @@
 import 'uplot/dist/uPlot.min.css';
 import './styles/base.css';
 import './styles/forms.css';
+import './styles/outcome.css';
 
 import { computed, effect, type Signal, signal, untracked } from '@preact/signals';
 import { render } from 'preact';
@@ -18,6 +19,7 @@ import { PracticeStore } from './state/practice_store';
 import { browserWindow, letGoWhenLeft } from './state/practice_window';
 import { headsetMessage } from './scene/headset_text';
 import { isActive } from './state/choose_session';
+import { followTitle } from './state/page_title';
 import { addressOfReplay, replayInAddress } from './state/replay_address';
 import { addressOfRoute, followRoute, type Route, routeInAddress, showsSession } from './state/route';
 import { Sound } from './state/sound';
@@ -111,6 +113,7 @@ function main(root: HTMLElement): void {
   followReplayAddress(store, watcher, route);
   followViewerLinks(identity);
   followRoute(route);
+  followTitle({ route, loggedOut: () => identity.phase.value === 'unknown' }, document);
   beginWithOverview(identity, route);
   void identity.find(linkSecret);
   watchWhenKnown(identity, route, () => goOnSteering(api, store, practice), { watcher, practice, practiceStore });

@@ -1,5 +1,5 @@
 // The page's colours hold WCAG 2.1 AA in both themes: 4.5 for text, 3 for what bounds a control or is a sign.
-import { readFileSync } from 'node:fs';
+import { readdirSync, readFileSync } from 'node:fs';
 
 import { describe, expect, it } from 'vitest';
 
@@ -24,7 +24,7 @@ function contrast(a: string, b: string): number {
   return (high + 0.05) / (low + 0.05);
 }
 
-const texts = ['text', 'text-soft', 'accent', 'good', 'warn', 'bad', 'pass', 'fail'];
+const texts = ['text', 'text-soft', 'accent', 'good', 'warn', 'bad', 'pass', 'fail', 'undecided'];
 const pairs: [string, string, number][] = [
   ...['ground', 'panel'].flatMap((ground) => [
     ...texts.map((text): [string, string, number] => [text, ground, 4.5]),
@@ -47,4 +47,50 @@ describe.each([
   it.each(pairs)('%s on %s', (one, other, least) => {
     expect(contrast(colours.get(one) ?? '', colours.get(other) ?? '')).toBeGreaterThanOrEqual(least);
   });
+});
+
+/** The value that a button of a choice has in a state, by the style sheet's own rules. */
+function ofChoice(property: string, { pressed, disabled }: { pressed: boolean; disabled: boolean }): string {
+  const holds: Record<string, boolean> = {
+    "[aria-pressed='true']": pressed,
+    ":not([aria-pressed='true'])": !pressed,
+    ':disabled': disabled,
+  };
+  const review = readFileSync(new URL('../src/styles/review.css', import.meta.url), 'utf8');
+  let best = { value: '', rank: -1 };
+  for (const [, suffix = '', body = ''] of review.matchAll(/^\.choice button([^\s{,+]*) \{([^}]*)\}/gm)) {
+    const parts = suffix.match(/:not\([^)]*\)|\[[^\]]*\]|:[a-z-]+/g) ?? [];
+    const value = new RegExp(`(?:^|\\s)${property}: var\\(--([a-z-]+)\\)`).exec(body)?.[1];
+    if (value !== undefined && parts.every((part) => holds[part]) && parts.length >= best.rank)
+      best = { value, rank: parts.length };
+  }
+  return best.value;
+}
+
+describe.each([
+  ['light', ':root'],
+  ['dark', ":root[data-theme='dark']"],
+])('a choice, %s', (_, selector) => {
+  const colours = coloursOf(selector);
+  it.each([
+    [false, false],
+    [true, false],
+    [false, true],
+    [true, true],
+  ])('can be read (pressed %s, disabled %s)', (pressed, disabled) => {
+    const [text, ground] = [ofChoice('color', { pressed, disabled }), ofChoice('background', { pressed, disabled })];
+    expect(contrast(colours.get(text) ?? '', colours.get(ground) ?? '')).toBeGreaterThanOrEqual(4.5);
+  });
+});
+
+it('links have the colour of the theme, not the browser’s', () => {
+  expect(css).toMatch(/^a \{\s*color: var\(--accent\);\s*\}/m);
+});
+
+it('outcomes have their colours from one place', () => {
+  const folder = new URL('../src/styles/', import.meta.url);
+  const naming = readdirSync(folder).filter((name) =>
+    /\.(outcome|verdict)-(pass|fail|undecided|warn)\b/.test(readFileSync(new URL(name, folder), 'utf8')),
+  );
+  expect(naming).toEqual(['outcome.css']);
 });

@@ -12,6 +12,8 @@ import { PageHeader } from '../panels/common/page_header';
 import { Message } from '../panels/common/fields';
 import { useIdentity } from '../panels/common/site_nav';
 import { Remote } from '../state/remote';
+import { addressOfRoute } from '../state/route';
+import { pageText } from '../text/page_text';
 import { AccessApi } from '../wire/access_api';
 import { LoginApi } from '../wire/login_api';
 
@@ -31,7 +33,12 @@ export function UsersPage() {
       <PageHeader here="users" />
       <main class="content">
         <section class="content-panel" aria-labelledby="users-title">
-          <h2 id="users-title">{accessText.users}</h2>
+          <div class="content-head">
+            <h2 id="users-title">{accessText.users}</h2>
+            <a class="content-count" data-testid="to-audit" href={addressOfRoute({ kind: 'audit' })}>
+              {pageText.auditLog}
+            </a>
+          </div>
           {users.problem.value !== null && (
             <Message kind="bad" testId="users-problem">
               {users.problem.value}

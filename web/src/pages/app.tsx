@@ -13,6 +13,8 @@ import { LoginPage } from './login_page';
 const dashboardPage = lazyPart(() => import('./dashboard_page'));
 const casePages = lazyPart(() => import('./case_pages'));
 const sessionPages = lazyPart(() => import('./session_pages'));
+const trashPage = lazyPart(() => import('./trash_page'));
+const auditPage = lazyPart(() => import('./audit_page'));
 const reviewPage = lazyPart(() => import('./review_page'));
 const studyPages = lazyPart(() => import('./study_pages'));
 const feelPage = lazyPart(() => import('./feel_session_page'));
@@ -70,6 +72,9 @@ function Page({ route, live, identity }: { route: Route; live: LivePageParts; id
     case 'sessions':
       if (!may.ream) return <NotForYou />;
       return sessionPages.show(({ SessionsPage }) => <SessionsPage live={live} />);
+    case 'trash':
+      if (!may.teach) return <NotForYou />;
+      return trashPage.show(({ TrashPage }) => <TrashPage />);
     case 'review':
       return reviewPage.show(({ ReviewPage }) => <ReviewPage route={route} />);
     case 'studies':
@@ -81,6 +86,9 @@ function Page({ route, live, identity }: { route: Route; live: LivePageParts; id
     case 'users':
       if (!may.operate) return <NotForYou />;
       return accessPages.show(({ UsersPage }) => <UsersPage />);
+    case 'audit':
+      if (!may.operate) return <NotForYou />;
+      return auditPage.show(({ AuditPage }) => <AuditPage />);
     case 'account':
       if (identity.userId.value === null) return <NotForYou />;
       return accessPages.show(({ AccountPage }) => <AccountPage />);

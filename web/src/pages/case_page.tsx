@@ -10,6 +10,7 @@ import { SurfacePanel } from '../panels/case/surface_panel';
 import { WindowBar } from '../panels/case/window_bar';
 import { SliceView } from '../scene/slice_view';
 import { SurfaceView } from '../scene/surface_view';
+import { useShownName } from '../panels/common/use_shown_name';
 import type { CaseController } from '../state/case/case_controller';
 import { ViewMarks } from '../state/case/view_marks';
 import { Button } from '../panels/common/button';
@@ -26,6 +27,7 @@ export function CasePage({ controller, startReaming }: Parts) {
   const enlarged = useSignal<ViewId | null>(null);
   const { store } = controller;
   const details = store.details.value;
+  useShownName(details?.name || (details?.id ?? ''));
   const problem = store.loadProblem.value;
   if (problem !== null || details === null)
     return (

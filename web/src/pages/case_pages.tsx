@@ -28,7 +28,7 @@ export function CasePages({ route, startReaming }: Parts) {
   const { editCases } = useIdentity().may.value;
   if (route.kind === 'case')
     return <OneCase key={route.id} id={route.id} mayEdit={editCases} startReaming={startReaming} />;
-  return <CasesPage controller={cases} mayEdit={editCases} />;
+  return <CasesPage controller={cases} mayEdit={editCases} startReaming={startReaming} />;
 }
 
 type OneCaseParts = { id: string; mayEdit: boolean; startReaming: Parts['startReaming'] };

@@ -14,6 +14,7 @@ import { ReviewPane } from '../panels/review/review_pane';
 import { ReviewTools } from '../panels/review/review_tools';
 import { ScorePanel } from '../panels/review/score_panel';
 import { useIdentity } from '../panels/common/site_nav';
+import { useShownName } from '../panels/common/use_shown_name';
 import type { Route } from '../state/route';
 import { ReviewWorkspace } from '../panels/review/review_workspace';
 
@@ -30,6 +31,8 @@ export function ReviewPage({ route }: { route: Route & { kind: 'review' } }) {
   useEffect(() => workspace.settings.view.keepFor(`${person}.review`, window.localStorage), [workspace, person]);
   useLiveKeys(useMemo(() => keysOf(workspace), [workspace]));
   const panes = workspace.panes.value;
+  const first = panes[0]?.session;
+  useShownName(first?.details.value?.title || (first?.id ?? ''));
   return (
     <div class={`page review-page review-of-${panes.length}`}>
       <PageHeader here="review" />

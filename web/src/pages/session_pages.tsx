@@ -6,7 +6,10 @@ import { PageHeader } from '../panels/common/page_header';
 import { Message } from '../panels/common/fields';
 import { FilterBar } from '../panels/sessions/filter_bar';
 import { SessionTable } from '../panels/sessions/session_table';
+import { pageText } from '../text/page_text';
 import { sessionText } from '../text/session_text';
+import { useIdentity } from '../panels/common/site_nav';
+import { addressOfRoute } from '../state/route';
 import { addressOfReplay } from '../state/replay_address';
 import { SessionBrowser } from '../state/sessions/session_browser';
 import { SessionListApi } from '../wire/session_list_api';
@@ -19,6 +22,7 @@ const browser = new SessionBrowser(new SessionListApi(window.location.origin));
 /** All sessions that the user may see, of all times. */
 export function SessionsPage({ live }: { live: LivePageParts }) {
   const { watcher, store } = live;
+  const identity = useIdentity();
   const acts = useMemo(
     () => ({
       watch: (session: { id: string }) => {
@@ -58,6 +62,13 @@ export function SessionsPage({ live }: { live: LivePageParts }) {
               </span>
             )}
           </div>
+          {identity.may.value.teach && (
+            <p class="soft">
+              <a data-testid="to-trash" href={addressOfRoute({ kind: 'trash' })}>
+                {pageText.deletedSessions}
+              </a>
+            </p>
+          )}
           <FilterBar browser={browser} />
           {problem !== null && (
             <Message kind="bad" testId="sessions-problem">

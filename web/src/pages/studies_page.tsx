@@ -1,5 +1,6 @@
 import { useEffect, useMemo } from 'preact/hooks';
 
+import { ActionsColumn } from '../panels/common/actions_column';
 import { PageHeader } from '../panels/common/page_header';
 import { Message } from '../panels/common/fields';
 import { dayAndTime } from '../text/format';
@@ -52,7 +53,7 @@ function Table({ studies, mayRun }: { studies: readonly Study[]; mayRun: boolean
               </th>
             )}
             <th scope="col">{studyText.yourCodeColumn}</th>
-            <th scope="col" />
+            <ActionsColumn />
           </tr>
         </thead>
         <tbody>
@@ -69,7 +70,7 @@ function Table({ studies, mayRun }: { studies: readonly Study[]; mayRun: boolean
               </td>
               {mayRun && <td class="number">{study.participants}</td>}
               <td>{study.participant}</td>
-              <td class="soft">{dayAndTime(study.created_utc)}</td>
+              <td class="soft when">{dayAndTime(study.created_utc)}</td>
             </tr>
           ))}
         </tbody>

@@ -3,6 +3,7 @@ import { useEffect, useMemo } from 'preact/hooks';
 import { PageHeader } from '../panels/common/page_header';
 import { Message } from '../panels/common/fields';
 import { useIdentity } from '../panels/common/site_nav';
+import { useShownName } from '../panels/common/use_shown_name';
 import { EnrolPanel } from '../panels/study/enrol_panel';
 import { FeelPanel } from '../panels/study/feel_panel';
 import { FeelReportPanel } from '../panels/study/feel_report';
@@ -34,6 +35,7 @@ export function StudyPage({ api, id, train }: Parts) {
     if (may.teach) void participants.read();
   }, [studies, participants, may.teach]);
   const study = studies.value.value;
+  useShownName(study?.name ?? '');
   const empty = participants.value.value?.length === 0;
   const listed = may.teach ? (participants.value.value ?? []) : [];
   const begin = async (participant: string | null, caseId: string) => {

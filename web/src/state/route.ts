@@ -6,6 +6,8 @@ export type Route =
   | { kind: 'live' }
   | { kind: 'trainee' }
   | { kind: 'sessions' }
+  /** Deleted sessions. */
+  | { kind: 'trash' }
   /** One session that has ended, or two beside each other. */
   | { kind: 'review'; id: string; beside: string | null }
   | { kind: 'cases' }
@@ -16,9 +18,22 @@ export type Route =
   /** The replays of a study that the user rates. */
   | { kind: 'rating'; id: string }
   | { kind: 'users' }
+  /** Who changed what. */
+  | { kind: 'audit' }
   | { kind: 'account' };
 
-const places = ['trainee', 'sessions', 'cases', 'studies', 'users', 'account'] as const;
+const places = ['trainee', 'sessions', 'trash', 'cases', 'studies', 'users', 'audit', 'account'] as const;
+/** Every page that an address can name. */
+export const routeKinds: readonly Route['kind'][] = [
+  'dashboard',
+  'live',
+  'review',
+  'case',
+  'study',
+  'questionnaire',
+  'rating',
+  ...places,
+];
 
 export function routeInAddress(hash: string): Route {
   if (hash === '#/') return { kind: 'dashboard' };
@@ -55,9 +70,11 @@ export function addressOfRoute(route: Route): string {
       return `#/studies/${route.id}/rate`;
     case 'trainee':
     case 'sessions':
+    case 'trash':
     case 'cases':
     case 'studies':
     case 'users':
+    case 'audit':
     case 'account':
       return `#/${route.kind}`;
   }

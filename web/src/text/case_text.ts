@@ -49,7 +49,7 @@ export const caseText = {
   seriesUid: 'Series instance UID, if the ZIP file has several series',
   make: 'Import',
   goOn: 'Resume upload',
-  uploading: (percent: string, sent: string, all: string) => `Uploading ${percent} % (${sent} of ${all} MB)`,
+  uploading: (percent: string, sent: string, all: string) => `Uploading ${percent} (${sent} of ${all} MB)`,
   uploadWaiting: 'Connection lost. The upload resumes automatically.',
   uploadFailed: 'The upload has stopped',
   uploadFailedHint: 'The uploaded part is saved. “Resume upload” sends the rest.',
@@ -73,7 +73,6 @@ export const caseText = {
         : job.state === 'failed'
           ? 'Failed'
           : job.step,
-  percent: (share: number) => `${Math.floor(share * 100)} %`,
   dismiss: 'Dismiss',
   problem: 'That did not work',
 
@@ -240,7 +239,7 @@ export const caseText = {
     intermediate_version_deg: 'Line between the edges',
     between_deg: 'Angle between the two',
   } as Readonly<Record<string, string>>,
-  percentValue: (percent: string) => `${percent} %`,
+  percentValue: (percent: string) => `${percent}`,
   retroversion: (degrees: string) => `${degrees}° retroversion`,
   anteversion: (degrees: string) => `${degrees}° anteversion`,
   superior: (degrees: string) => `${degrees}° superior`,

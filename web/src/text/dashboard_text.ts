@@ -31,7 +31,7 @@ export const dashboardText = {
   alarmThrust: 'Thrust above 78 N',
   alarmDepth: (mm: string) => `${mm} mm past the plan`,
   alarmVault: (mm: string) => `Vault breach of ${mm} mm`,
-  alarmLate: (percent: string) => `Running slow: ${percent} % of steps late`,
+  alarmLate: (percent: string) => `Running slow: ${percent} of steps late`,
 
   recent: 'Recent sessions',
   noneRecent: 'No finished sessions yet. Practise or run the demo in the live view.',

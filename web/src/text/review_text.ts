@@ -21,7 +21,7 @@ export const reviewText = {
   errors: {
     gone: {
       title: 'This session does not exist',
-      text: 'It was deleted, or the address is wrong. Instructors and operators can restore a deleted session.',
+      text: 'It was deleted, or the address is wrong. Instructors and operators can restore it under Sessions, Deleted sessions.',
     },
     live: {
       title: 'This session is still running',
@@ -84,7 +84,7 @@ export const reviewText = {
     implant: 'Too high: bone overlaps the implant. Too deep (hatched): a gap behind the implant.',
     wall: 'Thickness of the bone behind the reamed face, measured at right angles to the face.',
   } as Record<MapName, string>,
-  mapMaking: (percent: string) => `Preparing the map: ${percent} %`,
+  mapMaking: (percent: string) => `Preparing the map: ${percent}`,
   mapAtEnd: 'Maps show the bone at the end of the session only.',
   scale: 'Scale',
   scaleName: { fine: 'Fine (0.1 mm)', report: 'As in the report (0.25 mm)', coarse: 'Coarse (0.5 mm)' },
@@ -100,9 +100,9 @@ export const reviewText = {
         : `over ${String(fromMm)} mm thick`,
   classUnknown: 'not compared',
   hatched: 'hatched',
-  share: (percent: string) => `${percent} %`,
+  share: (percent: string) => `${percent}`,
   shareHint: 'Share of the compared points of the surface',
-  outOfRange: (mm: string, percent: string) => `Values are capped at ${mm} mm (${percent} % of the area).`,
+  outOfRange: (mm: string, percent: string) => `Values are capped at ${mm} mm (${percent} of the area).`,
   breach: 'Vault breach',
   breachNone: 'none; the implant’s pegs or keel stay within the cortex',
   breachBy: (mm: string) => `the implant’s pegs or keel perforate the cortex by ${mm} mm`,
@@ -146,7 +146,7 @@ export const reviewText = {
   noOutcome: 'No result: this rubric has no pass mark.',
   rubric: (name: string, version: number, passPoints: number | undefined) =>
     `Rubric “${name}”, version ${version}${passPoints === undefined ? '' : `; pass mark ${passPoints}`}`,
-  measuredPercent: (percent: string) => `The score covers ${percent} % of the rubric.`,
+  measuredPercent: (percent: string) => `The score covers ${percent} of the rubric.`,
   scoreLoading: 'Loading the score…',
   noScore: (reason: string) => `The score could not be loaded: ${reason}`,
   countsForMark: 'Scored metrics',
@@ -210,7 +210,7 @@ export const reviewText = {
   } as const,
   scoreFile: 'Score (JSON)',
   scoreFileHint: 'Every metric with definition, unit, source and limits',
-  making: (percent: string) => `preparing, ${percent} %`,
+  making: (percent: string) => `preparing, ${percent}`,
   ready: 'Download again',
   exportFailed: (what: string, reason: string) => `${what} could not be prepared: ${reason}`,
   filesForbidden: 'Viewer links do not offer files. Log in to download them.',

@@ -24,6 +24,8 @@ describe('route', () => {
       '#/studies/s1/answers/K7-F3M',
       '#/studies/s1/rate',
       '#/users',
+      '#/trash',
+      '#/audit',
       '#/account',
     ]) {
       expect(routeInAddress(hash).kind).not.toBe('live');

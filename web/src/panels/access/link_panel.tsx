@@ -3,10 +3,11 @@ import { useEffect, useMemo } from 'preact/hooks';
 import { accessText } from '../../text/access_text';
 import { Remote } from '../../state/remote';
 import type { AccessApi } from '../../wire/access_api';
-import { dayAndTime } from '../../text/format';
+import { dayAndTime, dayYearAndTime } from '../../text/format';
 import { Message } from '../common/fields';
 import { ConfirmButton } from '../common/confirm_dialog';
 import { MakeLink } from './make_link';
+import { ActionsColumn } from '../common/actions_column';
 
 /** Links with which people watch without an account: those there are, and another. */
 export function LinkPanel({ api }: { api: AccessApi }) {
@@ -27,7 +28,7 @@ export function LinkPanel({ api }: { api: AccessApi }) {
                 <th scope="col">{accessText.showsColumn}</th>
                 <th scope="col">{accessText.usedColumn}</th>
                 <th scope="col">{accessText.untilColumn}</th>
-                <th />
+                <ActionsColumn />
               </tr>
             </thead>
             <tbody>
@@ -35,8 +36,10 @@ export function LinkPanel({ api }: { api: AccessApi }) {
                 <tr key={link.id}>
                   <td>{link.name || <span class="soft">{accessText.unnamed}</span>}</td>
                   <td>{link.session === null ? accessText.allSessions : accessText.oneSession(link.session)}</td>
-                  <td>{link.last_used_utc === null ? accessText.never : dayAndTime(link.last_used_utc)}</td>
-                  <td>{dayAndTime(link.expires_utc)}</td>
+                  <td class="when">
+                    {link.last_used_utc === null ? accessText.never : dayAndTime(link.last_used_utc)}
+                  </td>
+                  <td class="when">{dayYearAndTime(link.expires_utc)}</td>
                   <td class="actions">
                     <ConfirmButton
                       label={accessText.revoke}

@@ -4,12 +4,13 @@ import { useEffect, useMemo } from 'preact/hooks';
 import { accessText } from '../../text/access_text';
 import { Remote } from '../../state/remote';
 import { type AccessApi, utcInDays } from '../../wire/access_api';
-import { dayAndTime } from '../../text/format';
+import { dayAndTime, dayYearAndTime } from '../../text/format';
 import { Message } from '../common/fields';
 import { ConfirmButton } from '../common/confirm_dialog';
 import { SecretOnce } from '../common/secret_once';
 import { Count, TextLine } from '../common/form_fields';
 import { Button } from '../common/button';
+import { ActionsColumn } from '../common/actions_column';
 
 const usualDays = 90;
 
@@ -42,7 +43,7 @@ export function TokenPanel({ api, userId, nameOf }: Parts) {
                 {nameOf !== undefined && <th scope="col">{accessText.whoseColumn}</th>}
                 <th scope="col">{accessText.usedColumn}</th>
                 <th scope="col">{accessText.untilColumn}</th>
-                <th />
+                <ActionsColumn />
               </tr>
             </thead>
             <tbody>
@@ -50,8 +51,10 @@ export function TokenPanel({ api, userId, nameOf }: Parts) {
                 <tr key={token.id}>
                   <td>{token.name}</td>
                   {nameOf !== undefined && <td>{nameOf(token.user_id)}</td>}
-                  <td>{token.last_used_utc === null ? accessText.never : dayAndTime(token.last_used_utc)}</td>
-                  <td>{dayAndTime(token.expires_utc)}</td>
+                  <td class="when">
+                    {token.last_used_utc === null ? accessText.never : dayAndTime(token.last_used_utc)}
+                  </td>
+                  <td class="when">{dayYearAndTime(token.expires_utc)}</td>
                   <td class="actions">
                     <ConfirmButton
                       label={accessText.revoke}

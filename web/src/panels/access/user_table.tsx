@@ -10,6 +10,7 @@ import { ConfirmButton } from '../common/confirm_dialog';
 import { useIdentity } from '../common/site_nav';
 import { type AccountRole, type User, accountRoles } from '../../wire/rest_types';
 import { Button } from '../common/button';
+import { ActionsColumn } from '../common/actions_column';
 
 interface Parts {
   api: AccessApi;
@@ -29,7 +30,7 @@ export function UserTable({ api, users }: Parts) {
             <th scope="col">{accessText.roleColumn}</th>
             <th scope="col">{accessText.stateColumn}</th>
             <th scope="col">{accessText.sinceColumn}</th>
-            <th />
+            <ActionsColumn />
           </tr>
         </thead>
         <tbody>
@@ -73,7 +74,7 @@ function UserRow({ user, api, users }: Parts & { user: User }) {
           {user.enabled ? accessText.enabled : accessText.disabled}
         </span>
       </td>
-      <td>{dayAndTime(user.created_utc)}</td>
+      <td class="when">{dayAndTime(user.created_utc)}</td>
       <td class="actions">
         <NewPassword user={user} busy={busy} onSet={(password) => change({ password })} />
         <Button

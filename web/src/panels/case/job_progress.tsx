@@ -1,4 +1,5 @@
 import { caseText } from '../../text/case_text';
+import { percent } from '../../text/format';
 import { isUnderWay } from '../../state/case/job_watch';
 import type { Job } from '../../wire/rest_types';
 
@@ -43,10 +44,10 @@ export function ProgressBar({ share, label, stale }: { share: number; label: str
       aria-label={label}
       aria-valuemin={0}
       aria-valuemax={100}
-      aria-valuenow={Math.floor(share * 100)}
+      aria-valuenow={parseInt(percent(share), 10)}
     >
       <div style={{ width: `${share * 100}%` }} />
-      <span>{caseText.percent(share)}</span>
+      <span>{percent(share)}</span>
     </div>
   );
 }

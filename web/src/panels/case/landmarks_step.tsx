@@ -1,4 +1,6 @@
+import { caseFileText } from '../../text/case_file_text';
 import { caseText } from '../../text/case_text';
+import { fixed } from '../../text/format';
 import type { CaseController } from '../../state/case/case_controller';
 import {
   biconcavityNames,
@@ -8,9 +10,10 @@ import {
   type LandmarkName,
   pointOf,
 } from '../../state/case/landmark_names';
+import { checkCentre, farFromMiddleMm } from '../../state/case/rim_check';
 import type { SaveState } from '../../state/case/landmark_editor';
 import { type WalchClass, walchClasses } from '../../wire/rest_types';
-import { SelectField, SliderField } from '../common/fields';
+import { Message, SelectField, SliderField } from '../common/fields';
 import { MeasuresPanel } from './measures_panel';
 import { Button } from '../common/button';
 
@@ -52,6 +55,7 @@ export function LandmarksStep({ controller }: { controller: CaseController }) {
         }}
       />
       <Biconcavity controller={controller} chosen={chosen} />
+      <CentreCheck controller={controller} />
       <SaveLine controller={controller} state={controller.landmarks.save.value} />
       <MeasuresPanel controller={controller.landmarks} />
     </>
@@ -119,7 +123,28 @@ function LandmarkRow({ controller, name, chosen }: RowParts) {
   );
 }
 
-/** Whether the server has what is shown. */
+/** A centre far from the rim's middle is said, with the way to mend it. */
+function CentreCheck({ controller }: { controller: CaseController }) {
+  const check = checkCentre(controller.landmarks.landmarks.value);
+  if (check === null || check.offMm <= farFromMiddleMm) return null;
+  return (
+    <div role="status">
+      <Message kind="warn" testId="centre-off">
+        {caseFileText.centreOff(fixed(check.offMm, 1))}{' '}
+        <button
+          type="button"
+          class="link-button"
+          data-testid="use-middle"
+          onClick={() => controller.place('glenoid_centre_mm', check.middle)}
+        >
+          {caseFileText.useMiddle}
+        </button>
+      </Message>
+    </div>
+  );
+}
+
+/** Whether the server has what is shown; nothing while nothing was changed. */
 function SaveLine({ controller, state }: { controller: CaseController; state: SaveState }) {
   const { landmarks } = controller;
   return (
@@ -129,7 +154,7 @@ function SaveLine({ controller, state }: { controller: CaseController; state: Sa
       data-testid="save"
       data-state={state.kind}
     >
-      {state.kind === 'saved' && caseText.saved}
+      {state.kind === 'saved' && landmarks.hasSaved.value && caseText.saved}
       {state.kind === 'saving' && caseText.saving}
       {state.kind === 'unsaved' && caseText.unsaved}
       {state.kind === 'failed' && (

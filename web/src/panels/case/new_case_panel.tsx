@@ -1,14 +1,16 @@
 import { useSignal } from '@preact/signals';
 
+import { caseFileText } from '../../text/case_file_text';
 import { caseText } from '../../text/case_text';
+import { ctEndings } from '../../state/case/ct_file';
 import type { CaseListController, NewCaseState } from '../../state/case/new_case';
 import type { Side } from '../../wire/rest_types';
-import { fixed } from '../../text/format';
+import { fixed, percent, sentence } from '../../text/format';
 import { Message } from '../common/fields';
 import { JobProgress, ProgressBar } from './job_progress';
 import { Button } from '../common/button';
 
-const accepted = '.zip,.nrrd,.nii,.nii.gz,.gz,.mha,.txt,.dcm';
+const accepted = [...ctEndings, '.gz'].join();
 const megabytes = (bytes: number) => fixed(bytes / 1e6, 1);
 
 /** A CT's file, whose shoulder it is, and how far its upload and reading are. */
@@ -21,6 +23,11 @@ export function NewCasePanel({ controller }: { controller: CaseListController })
     <aside class="new-case" aria-label={caseText.newCase}>
       <h2>{caseText.newCase}</h2>
       <FilePlace controller={controller} disabled={underWay} />
+      {controller.refused.value !== null && (
+        <Message kind="bad" testId="file-refused">
+          {caseFileText[controller.refused.value.why](controller.refused.value.name)}
+        </Message>
+      )}
       <p class="soft">{caseText.newCaseHint}</p>
       <fieldset class="side-choice" disabled={underWay}>
         <legend>{caseText.whichSide}</legend>
@@ -70,7 +77,7 @@ export function NewCasePanel({ controller }: { controller: CaseListController })
           disabled={file === null || side === null}
           onClick={() => void controller.make()}
         >
-          {state.kind === 'failed' && state.during === 'upload' ? caseText.goOn : caseText.make}
+          {state.kind === 'failed' && state.resumable ? caseText.goOn : caseText.make}
         </Button>
       )}
       {!underWay && file !== null && side === null && <p class="soft">{caseText.sideMustBeChosen}</p>}
@@ -141,7 +148,7 @@ function Progress({ controller, state }: { controller: CaseListController; state
       return null;
     case 'uploading': {
       const share = state.bytes === 0 ? 1 : state.received / state.bytes;
-      const text = caseText.uploading(fixed(share * 100, 0), megabytes(state.received), megabytes(state.bytes));
+      const text = caseText.uploading(percent(share), megabytes(state.received), megabytes(state.bytes));
       return (
         <div class="job" role="status" data-testid="upload" data-waiting={state.waiting}>
           <p>{text}</p>
@@ -163,10 +170,10 @@ function Progress({ controller, state }: { controller: CaseListController; state
         />
       );
     case 'failed': {
-      const during = state.during === 'upload';
+      const during = state.resumable;
       return (
         <Message kind="bad" testId="new-case-failed">
-          <strong>{during ? caseText.uploadFailed : caseText.importFailed}.</strong> {state.message}{' '}
+          <strong>{during ? caseText.uploadFailed : caseText.importFailed}.</strong> {sentence(state.message)}{' '}
           {during ? caseText.uploadFailedHint : caseText.importFailedHint}
         </Message>
       );

@@ -5,7 +5,7 @@ import type { CaseController } from '../../state/case/case_controller';
 import type { PlanDraft } from '../../state/case/case_store';
 import { add, length } from '../../ct/volume_frame';
 import type { PlanAssessment, Plan, Triple } from '../../wire/rest_types';
-import { fixed } from '../../text/format';
+import { fixed, sentence } from '../../text/format';
 import { inclinationText, versionText } from './angle_text';
 import { NumberBox, NumberField, Message } from '../common/fields';
 import { Button } from '../common/button';
@@ -103,7 +103,7 @@ function AssessmentFigures({ assessment, stale }: { assessment: PlanAssessment; 
       </dl>
       {warnings.map((warning) => (
         <Message kind="warn" key={warning} testId="plan-warning">
-          {warning}
+          {sentence(warning)}
         </Message>
       ))}
     </>

@@ -1,11 +1,13 @@
+import { caseFileText } from '../../text/case_file_text';
 import { caseText } from '../../text/case_text';
 import { cssColour } from '../../ct/palette';
 import { type CaseController, settingsOf } from '../../state/case/case_controller';
+import { lacksShoulder } from '../../state/case/case_steps';
 import { isUnderWay } from '../../state/case/job_watch';
 import { addressOfRoute } from '../../state/route';
 import { seedNames } from '../../state/case/view_marks';
 import type { CaseCt, SeedName, CaseSegmentation, FullSegmentationSettings } from '../../wire/rest_types';
-import { fixed } from '../../text/format';
+import { fixed, sentence } from '../../text/format';
 import { CheckField, Message, SliderField } from '../common/fields';
 import { Button } from '../common/button';
 
@@ -178,9 +180,14 @@ function PartList({ controller, found }: { controller: CaseController; found: Ca
           );
         })}
       </ul>
+      {lacksShoulder(found) && (
+        <Message kind="bad" testId="no-shoulder">
+          <strong>{caseFileText.noShoulder}</strong> {caseFileText.noShoulderHint}
+        </Message>
+      )}
       {found.warnings.map((warning) => (
         <Message kind="warn" key={warning}>
-          {warning}
+          {sentence(warning)}
         </Message>
       ))}
     </>

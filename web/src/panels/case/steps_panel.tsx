@@ -2,6 +2,7 @@ import type { ComponentChildren } from 'preact';
 import { useMemo } from 'preact/hooks';
 
 import { caseText } from '../../text/case_text';
+import { sentence } from '../../text/format';
 import type { CaseController } from '../../state/case/case_controller';
 import { type StepName, type StepState, stepNames, stepStates } from '../../state/case/case_steps';
 import { BuildStep } from './build_step';
@@ -49,7 +50,7 @@ export function StepsPanel({ controller, startReaming }: Parts) {
           <summary>{caseText.warnings}</summary>
           {details.warnings.map((warning) => (
             <Message kind="soft" key={warning}>
-              {warning}
+              {sentence(warning)}
             </Message>
           ))}
         </details>

@@ -1,3 +1,4 @@
+import { caseFileText } from '../../text/case_file_text';
 import { caseText } from '../../text/case_text';
 import { type WindowLevel, windowLimits, windowPresets } from '../../ct/window_level';
 import type { CaseController } from '../../state/case/case_controller';
@@ -15,7 +16,7 @@ export function WindowBar({ controller }: { controller: CaseController }) {
   const { widthHu, levelHu } = store.window.value;
   const { widthMin, widthMax, levelMin, levelMax } = windowLimits;
   return (
-    <div class="window-bar">
+    <section class="window-bar" aria-label={caseFileText.picture}>
       <div class="window-group" role="group" aria-label={caseText.windowGroup}>
         {presets.map(([name, label, preset]) => (
           <button
@@ -64,7 +65,7 @@ export function WindowBar({ controller }: { controller: CaseController }) {
           {caseText.wholeCt}
         </button>
       </div>
-    </div>
+    </section>
   );
 }
 

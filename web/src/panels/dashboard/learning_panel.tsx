@@ -148,7 +148,7 @@ function Table({ points }: { points: readonly CurvePoint[] }) {
           {points.map((point, i) => (
             <tr key={point.session}>
               <td class="number">{i + 1}</td>
-              <td>{dayAndTime(point.created_utc)}</td>
+              <td class="when">{dayAndTime(point.created_utc)}</td>
               <td class="number">{fixed(point.points, 1)}</td>
               <td>
                 <OutcomeMark outcome={point.outcome} />

@@ -1,17 +1,9 @@
 import { dashboardText } from '../../text/dashboard_text';
 import type { Tile } from '../../state/dashboard/live_board';
 import { alarmsOf, type TileAlarm } from '../../state/dashboard/tile_alarms';
-import type { Session } from '../../wire/rest_types';
 import { appText } from '../../text/app_text';
-import { clock, fixed, minutes } from '../../text/format';
-
-/** Who trains, in words that are never empty. */
-export function traineeLabel({ trainee, participant, device, title }: Session): string {
-  if (trainee) return trainee;
-  if (participant) return dashboardText.byParticipant(participant);
-  if (title) return title;
-  return device.name === 'script' ? dashboardText.scripted : dashboardText.unnamed;
-}
+import { clock, duration, fixed } from '../../text/format';
+import { traineeLabel } from '../common/trainee_label';
 
 /** One session under way: who, what the bone looks like, the figures that matter, and what is wrong. */
 export function LiveTile({ tile, old, watch }: { tile: Tile; old: boolean; watch: (id: string) => void }) {
@@ -83,7 +75,7 @@ function Figures({ tile: { session, soFar, plannedDepthMm } }: { tile: Tile }) {
         </span>
       </Pair>
       <Pair name={dashboardText.removed}>{dashboardText.cubicMm(fixed(soFar?.removed_volume_mm3, 0))}</Pair>
-      <Pair name={dashboardText.time}>{minutes(soFar?.duration_s ?? session.duration_s)}</Pair>
+      <Pair name={dashboardText.time}>{duration(soFar?.duration_s ?? session.duration_s)}</Pair>
     </dl>
   );
 }

@@ -1,14 +1,14 @@
 import { dashboardText } from '../../text/dashboard_text';
 import type { Outcome } from '../../wire/rest_types';
 
-/** In words, with a sign that is told apart without colours. */
-export function OutcomeMark({ outcome }: { outcome: Outcome }) {
+/** In words (`words`: other ones), with a sign that is told apart without colours. */
+export function OutcomeMark({ outcome, words }: { outcome: Outcome; words?: string }) {
   return (
     <span class={`outcome outcome-${outcome ?? 'none'}`}>
       <svg viewBox="-8 -8 16 16" width="14" height="14" aria-hidden="true">
         <OutcomeSign outcome={outcome} />
       </svg>
-      {dashboardText.outcome[outcome ?? 'none']}
+      {words ?? dashboardText.outcome[outcome ?? 'none']}
     </span>
   );
 }

@@ -8,7 +8,8 @@ import type { Session } from '../../wire/rest_types';
 import { appText } from '../../text/app_text';
 import { dayAndTime, fixed } from '../../text/format';
 import { Message } from '../common/fields';
-import { traineeLabel } from './live_tile';
+import { traineeLabel } from '../common/trainee_label';
+import { ReportButton } from '../common/report_button';
 import { OutcomeMark } from './outcome_mark';
 import { Button } from '../common/button';
 
@@ -68,6 +69,7 @@ export function RecentPanel({ ended, replay }: Parts) {
                   key={session.id}
                   session={session}
                   replay={async () => (failed.value = await replay(session.id))}
+                  onProblem={(words) => (failed.value = words)}
                 />
               ))}
             </tbody>
@@ -78,10 +80,16 @@ export function RecentPanel({ ended, replay }: Parts) {
   );
 }
 
-function Row({ session, replay }: { session: Session; replay: () => Promise<unknown> }) {
+interface RowParts {
+  session: Session;
+  replay: () => Promise<unknown>;
+  onProblem: (words: string) => void;
+}
+
+function Row({ session, replay, onProblem }: RowParts) {
   return (
     <tr data-testid={`recent-${session.id}`}>
-      <td>{dayAndTime(session.created_utc)}</td>
+      <td class="when">{dayAndTime(session.created_utc)}</td>
       <td>{traineeLabel(session)}</td>
       <td>{session.case}</td>
       <td class="number" data-testid={`points-${session.id}`}>
@@ -97,6 +105,17 @@ function Row({ session, replay }: { session: Session; replay: () => Promise<unkn
         )}
       </td>
       <td class="actions">
+        {canBeReplayed(session) && (
+          <a
+            class="plain-button"
+            data-testid={`recent-review-${session.id}`}
+            aria-label={appText.reviewSession(session.id)}
+            href={addressOfRoute({ kind: 'review', id: session.id, beside: null })}
+          >
+            {appText.review}
+          </a>
+        )}
+        {canBeReplayed(session) && <ReportButton session={session.id} onProblem={onProblem} />}
         {canBeReplayed(session) && (
           <Button
             testId={`recent-replay-${session.id}`}

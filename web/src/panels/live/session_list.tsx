@@ -4,7 +4,7 @@ import type { Store } from '../../state/store';
 import type { Watcher } from '../../state/watcher';
 import type { Session } from '../../wire/rest_types';
 import { appText } from '../../text/app_text';
-import { dayAndTime, minutes } from '../../text/format';
+import { dayAndTime, duration } from '../../text/format';
 import { useIdentity } from '../common/site_nav';
 
 /** Earlier sessions, newest first; those that have ended can be replayed. */
@@ -34,7 +34,7 @@ function Row({ session, store, watcher }: RowParts) {
     <li data-testid={`session-${session.id}`} data-state={session.state}>
       <When session={session} />
       <span>
-        {session.trainee || session.case} <span class="soft">{minutes(session.duration_s)}</span>
+        {session.trainee || session.case} <span class="soft">{duration(session.duration_s)}</span>
       </span>
       <span class={`session-word session-${session.state}`}>{appText.state[session.state]}</span>
       {isActive(session) ? (

@@ -9,7 +9,7 @@ import { everything } from '../../state/sessions/session_browser';
 import type { Session } from '../../wire/rest_types';
 import { SessionListApi } from '../../wire/session_list_api';
 import { Message } from '../common/fields';
-import { dayAndTime, minutes } from '../../text/format';
+import { dayAndTime, duration } from '../../text/format';
 
 /** Sessions of the same case, to be shown beside the first. */
 export function ComparePanel({ panes }: { panes: readonly Pane[] }) {
@@ -61,7 +61,7 @@ export function ComparePanel({ panes }: { panes: readonly Pane[] }) {
 
 function optionLabel(session: Session, same: boolean): string {
   const { title, trainee, participant, created_utc: when, duration_s: length } = session;
-  const parts = [title || session.id, trainee || participant || '', dayAndTime(when), minutes(length)];
+  const parts = [title || session.id, trainee || participant || '', dayAndTime(when), duration(length)];
   if (same) parts.push(`(${reviewText.compareSelf})`);
   return parts.filter((text) => text !== '').join(' · ');
 }

@@ -1,7 +1,8 @@
 import type { Pane } from './review_workspace';
 import { reviewText } from '../../text/review_text';
 import { appText } from '../../text/app_text';
-import { dayAndTime, minutes } from '../../text/format';
+import { isDemo, traineeLabel } from '../common/trainee_label';
+import { dayAndTime, duration } from '../../text/format';
 
 /** Of whom and when the sessions are. */
 export function FactsPanel({ panes }: { panes: readonly Pane[] }) {
@@ -12,10 +13,10 @@ export function FactsPanel({ panes }: { panes: readonly Pane[] }) {
         const hello = session.store.hello.value;
         const who = details?.trainee || details?.participant || '';
         const facts = [
-          who === '' ? '' : appText.trainedBy(who),
+          details !== null && isDemo(details) ? traineeLabel(details) : who === '' ? '' : appText.trainedBy(who),
           (details?.attempt ?? 1) > 1 ? appText.attempt(details?.attempt ?? 1) : '',
           details === null ? '' : dayAndTime(details.created_utc),
-          details === null ? '' : minutes(details.duration_s),
+          details === null ? '' : duration(details.duration_s),
           hello === null ? '' : appText.side(hello.side),
           hello === null ? '' : hello.caseName || hello.caseId,
         ].filter((text) => text !== '');

@@ -5,7 +5,7 @@ import type { ReviewSession } from '../../state/review/review_session';
 import { messageOf } from '../../wire/rest';
 import { exportFormats, type ExportFormat, type ReviewApi } from '../../wire/review_api';
 import { Message } from '../common/fields';
-import { fixed, sentence } from '../../text/format';
+import { percent, sentence } from '../../text/format';
 import { lazyPart } from '../common/lazy_part';
 import { useIdentity } from '../common/site_nav';
 import { Button } from '../common/button';
@@ -16,6 +16,8 @@ const sharing = lazyPart(() => import('../access/share_panel'));
 export function FilesPanel({ session, review }: { session: ReviewSession; review: ReviewApi }) {
   const identity = useIdentity();
   const may = identity.may.value;
+  // Of what is not there, or not theirs to see, there are no files.
+  const absent = ['gone', 'forbidden'].includes(session.error.value?.kind ?? '');
   return (
     <section class="review-panel" aria-label={`${reviewText.files}, ${session.id}`} data-testid="files">
       <h2>{reviewText.files}</h2>
@@ -23,15 +25,16 @@ export function FilesPanel({ session, review }: { session: ReviewSession; review
         <ul class="file-list">
           {exportFormats.map((format) => (
             <li key={format}>
-              <ExportButton session={session} review={review} format={format} />
+              <ExportButton session={session} review={review} format={format} absent={absent} />
             </li>
           ))}
           <li>
             <a
-              class="plain-button"
+              class={absent ? 'plain-button disabled' : 'plain-button'}
+              aria-disabled={absent}
               data-testid="score-file"
               title={reviewText.scoreFileHint}
-              href={review.scoreUrl(session.id)}
+              href={absent ? undefined : review.scoreUrl(session.id)}
               download={`${session.id}-score.json`}
             >
               {reviewText.scoreFile}
@@ -41,7 +44,9 @@ export function FilesPanel({ session, review }: { session: ReviewSession; review
       ) : (
         <p class="soft">{reviewText.filesForbidden}</p>
       )}
-      <Sharing session={session} mayShare={may.teach && identity.hasUsers.value} open={!identity.hasUsers.value} />
+      {!absent && (
+        <Sharing session={session} mayShare={may.teach && identity.hasUsers.value} open={!identity.hasUsers.value} />
+      )}
     </section>
   );
 }
@@ -50,10 +55,11 @@ interface ExportParts {
   session: ReviewSession;
   review: ReviewApi;
   format: ExportFormat;
+  absent: boolean;
 }
 
 /** Makes a file and gives it to the browser when it is done. */
-function ExportButton({ session, review, format }: ExportParts) {
+function ExportButton({ session, review, format, absent }: ExportParts) {
   const share = useSignal<number | null>(null);
   const problem = useSignal<string | null>(null);
   const [label, hint] = reviewText.formats[format];
@@ -74,9 +80,14 @@ function ExportButton({ session, review, format }: ExportParts) {
   };
   return (
     <>
-      <Button testId={`export-${format}`} title={hint} disabled={share.value !== null} onClick={() => void make()}>
+      <Button
+        testId={`export-${format}`}
+        title={hint}
+        disabled={absent || share.value !== null}
+        onClick={() => void make()}
+      >
         {label}
-        {share.value !== null && <span role="status"> {reviewText.making(fixed(share.value * 100, 0))}</span>}
+        {share.value !== null && <span role="status"> {reviewText.making(percent(share.value))}</span>}
       </Button>
       {problem.value !== null && (
         <Message kind="bad" testId={`export-problem-${format}`}>

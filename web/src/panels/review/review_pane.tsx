@@ -5,7 +5,7 @@ import { reviewText } from '../../text/review_text';
 import { addressOfRoute } from '../../state/route';
 import type { ReviewSession } from '../../state/review/review_session';
 import { appText } from '../../text/app_text';
-import { fixed } from '../../text/format';
+import { fixed, percent } from '../../text/format';
 import { lazyPart } from '../common/lazy_part';
 import { LinkNotice } from '../live/link_notice';
 import { PlaybackBar } from '../picture/playback_bar';
@@ -123,7 +123,7 @@ function PanePicture({ pane, workspace }: { pane: Pane; workspace: ReviewWorkspa
       <ProblemBanner store={store} />
       {map.kind === 'making' && (
         <p class="picture-note" role="status" data-testid="map-making">
-          {reviewText.mapMaking(fixed(map.share * 100, 0))}
+          {reviewText.mapMaking(percent(map.share))}
         </p>
       )}
       {map.kind === 'problem' && (

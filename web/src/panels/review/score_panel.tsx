@@ -7,6 +7,7 @@ import { reviewText } from '../../text/review_text';
 import { groupedMetrics, number, valueText } from '../../state/review/score_text';
 import type { Score, ScoredMetric, Verdict } from '../../wire/rest_types';
 import { fixed, sentence } from '../../text/format';
+import { OutcomeMark } from '../dashboard/outcome_mark';
 import { MetricCard, type Pointed } from './metric_card';
 
 /** What the sessions are worth: the mark, and every metric with what stands behind it. */
@@ -69,10 +70,7 @@ function Mark({ score, problem, place, several }: MarkParts) {
         {several && <span class="pane-number">{place + 1}</span>}
         <span class="visually-hidden">{reviewText.overall}: </span>
         <strong>{points === null ? reviewText.noPoints : reviewText.points(fixed(points, 1))}</strong>
-        <span class={`outcome outcome-${outcome ?? 'none'}`}>
-          <span aria-hidden="true">{outcome === null ? '' : { pass: '● ', fail: '⬣ ', undecided: '▲ ' }[outcome]}</span>
-          {outcome === null ? reviewText.noOutcome : reviewText.outcome[outcome]}
-        </span>
+        <OutcomeMark outcome={outcome} words={outcome === null ? reviewText.noOutcome : reviewText.outcome[outcome]} />
         {theatre && (
           <span class="role-chip" title={reviewText.theatreHint}>
             {reviewText.theatre}

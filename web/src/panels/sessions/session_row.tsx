@@ -6,11 +6,14 @@ import { addressOfRoute } from '../../state/route';
 import type { SessionBrowser } from '../../state/sessions/session_browser';
 import type { Session } from '../../wire/rest_types';
 import { appText } from '../../text/app_text';
-import { dayAndTime, minutes } from '../../text/format';
+import { dayAndTime, duration, fixed } from '../../text/format';
 import { useFocusAfter } from '../common/focus_after';
 import { ConfirmButton } from '../common/confirm_dialog';
 import { useIdentity } from '../common/site_nav';
 import { Button } from '../common/button';
+import { isDemo, traineeLabel } from '../common/trainee_label';
+import { OutcomeMark } from '../dashboard/outcome_mark';
+import { ReportButton } from '../common/report_button';
 
 interface Parts {
   session: Session;
@@ -27,18 +30,22 @@ export function SessionRow({ session, browser, watch, replay }: Parts) {
   const busy = browser.page.busy.value;
   return (
     <tr data-testid={`row-${session.id}`} data-state={session.state}>
-      <td>{dayAndTime(session.created_utc)}</td>
+      <td class="when">{dayAndTime(session.created_utc)}</td>
       <td>
         <Title session={session} browser={browser} />
       </td>
       <td>
         {session.case} {attempt > 1 && <span class="soft">{sessionText.attempt(attempt)}</span>}
       </td>
-      <td>{session.trainee || session.participant}</td>
+      <td>{isDemo(session) ? traineeLabel(session) : session.trainee || session.participant}</td>
       <td>
         <span class={`session-word session-${session.state}`}>{appText.state[session.state]}</span>
       </td>
-      <td class="number">{minutes(session.duration_s)}</td>
+      <td class="number when">{duration(session.duration_s)}</td>
+      <td class="number" data-testid={`points-${session.id}`}>
+        {live ? '' : fixed(session.score?.points, 1)}
+      </td>
+      <td>{!live && <OutcomeMark outcome={session.score?.outcome ?? null} />}</td>
       <td class="actions">
         {live && session.streamable && (
           <Button
@@ -58,6 +65,9 @@ export function SessionRow({ session, browser, watch, replay }: Parts) {
           >
             {appText.review}
           </a>
+        )}
+        {canBeReplayed(session) && (
+          <ReportButton session={session.id} onProblem={(words) => (browser.page.problem.value = words)} />
         )}
         {canBeReplayed(session) && (
           <Button

@@ -1,8 +1,10 @@
+import { pageText } from '../../text/page_text';
 import { sessionText } from '../../text/session_text';
 import type { SessionBrowser } from '../../state/sessions/session_browser';
 import type { Session } from '../../wire/rest_types';
 import type { SortKey } from '../../wire/session_list_api';
 import { SessionRow } from './session_row';
+import { ActionsColumn } from '../common/actions_column';
 
 const columns: readonly (readonly [SortKey | null, string])[] = [
   ['created_utc', sessionText.whenColumn],
@@ -51,7 +53,11 @@ export function SessionTable({ browser, watch, replay }: Parts) {
                 )}
               </th>
             ))}
-            <th />
+            <th scope="col" class="number">
+              {pageText.points}
+            </th>
+            <th scope="col">{pageText.result}</th>
+            <ActionsColumn />
           </tr>
         </thead>
         <tbody>

@@ -1,6 +1,7 @@
 import { type Signal, useSignal } from '@preact/signals';
 
 import type { Remote } from '../../state/remote';
+import { pageText } from '../../text/page_text';
 import { studyText } from '../../text/study_text';
 import { AccessApi } from '../../wire/access_api';
 import type { StudyApi } from '../../wire/study_api';
@@ -11,6 +12,7 @@ import { useRemote } from '../common/use_remote';
 import { useIdentity } from '../common/site_nav';
 import { type Background, ExperienceFields } from './experience_fields';
 import { Button } from '../common/button';
+import { CopyButton } from '../common/copy_button';
 
 interface Parts {
   api: StudyApi;
@@ -48,7 +50,8 @@ export function EnrolPanel({ api, study, participants }: Parts) {
       <h2 id="enrol-title">{studyText.enrol}</h2>
       {study.join_code !== null && identity.hasUsers.value && (
         <p class="soft">
-          {studyText.enrolHint} {studyText.joinCode}: <strong data-testid="study-join-code">{study.join_code}</strong>
+          {studyText.enrolHint} {studyText.joinCode}: <strong data-testid="study-join-code">{study.join_code}</strong>{' '}
+          <CopyButton text={study.join_code} label={pageText.copyJoinCode} testId="copy-join-code" />
         </p>
       )}
       <form class="content-form" onSubmit={(event) => void enrol(event)}>

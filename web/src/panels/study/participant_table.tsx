@@ -10,6 +10,7 @@ import { Message } from '../common/fields';
 import { ConfirmButton } from '../common/confirm_dialog';
 import { useIdentity } from '../common/site_nav';
 import { Button } from '../common/button';
+import { ActionsColumn } from '../common/actions_column';
 
 interface Parts {
   api: StudyApi;
@@ -61,7 +62,7 @@ export function ParticipantTable({ api, study, participants }: Parts) {
                 </th>
                 {study.design && <th scope="col">{studyText.arm}</th>}
                 <th scope="col">{studyText.answered}</th>
-                <th />
+                <ActionsColumn />
               </tr>
             </thead>
             <tbody>

@@ -12,6 +12,7 @@ import { Message } from '../common/fields';
 import { Choice } from '../common/form_fields';
 import { useIdentity } from '../common/site_nav';
 import { useRemote } from '../common/use_remote';
+import { ActionsColumn } from '../common/actions_column';
 
 interface Parts {
   api: StudyApi;
@@ -48,7 +49,7 @@ function Table({ api, study, raters, list }: RaterParts & { list: readonly Rater
             <th scope="col">{studyText.rater}</th>
             <th scope="col">{studyText.person}</th>
             <th scope="col">{studyText.ratedColumn}</th>
-            <th />
+            <ActionsColumn />
           </tr>
         </thead>
         <tbody>

@@ -13,6 +13,17 @@ export interface StepFacts {
   planBeforeLandmarks: boolean;
 }
 
+/**
+ * No humeral head was found, which the server remarks on, nor did anybody say where the shoulder is: what is called scapula
+ * may be any bone. Cases that were not segmented here, such as phantoms, have neither head nor remark.
+ */
+export function lacksShoulder(segmentation: Case['segmentation']): boolean {
+  if (segmentation === null || segmentation.humeral_head !== null) return false;
+  if (segmentation.warnings.length === 0) return false;
+  const { humerus, scapula } = segmentation.settings.seeds ?? {};
+  return humerus === undefined && scapula === undefined;
+}
+
 /** How far each step of the work on a case is. */
 export function stepStates({ details, landmarks, planBeforeLandmarks }: StepFacts): Record<StepName, StepState> {
   const { ct, segmentation, plan, built } = details;
@@ -20,7 +31,12 @@ export function stepStates({ details, landmarks, planBeforeLandmarks }: StepFact
   const builtIsOld = built !== null && segmentation !== null && built.segmentation_revision !== segmentation.revision;
   const isBuilt = built !== null || details.stage === 'built';
   return {
-    segment: segmentation !== null || (ct === null && isBuilt) ? 'done' : ct === null ? 'blocked' : 'todo',
+    segment:
+      (segmentation !== null && !lacksShoulder(segmentation)) || (ct === null && isBuilt)
+        ? 'done'
+        : ct === null
+          ? 'blocked'
+          : 'todo',
     landmarks: placed ? 'done' : 'todo',
     plan: plan !== null ? (planBeforeLandmarks ? 'outdated' : 'done') : placed ? 'todo' : 'blocked',
     build: isBuilt ? (builtIsOld ? 'outdated' : 'done') : segmentation === null ? 'blocked' : 'todo',

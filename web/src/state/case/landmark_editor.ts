@@ -26,6 +26,8 @@ export type LandmarkApi = Pick<CaseApi, 'case' | 'putLandmarks' | 'measures' | '
 export class LandmarkEditor {
   readonly landmarks = signal<PlacedLandmarks>({});
   readonly save = signal<SaveState>({ kind: 'saved' });
+  /** Something was saved since the landmarks were read. */
+  readonly hasSaved = signal(false);
   readonly measures = signal<Measures | null>(null);
   /** Why there are no measures, where the server refused. */
   readonly measuresProblem = signal<string | null>(null);
@@ -93,6 +95,7 @@ export class LandmarkEditor {
       }
       const saved = await this.api.putLandmarks(this.caseId, landmarksOf(sent));
       this.known = saved.landmarks ?? {};
+      this.hasSaved.value = true;
       this.onSaved(saved);
       this.save.value = this.landmarks.value === sent ? { kind: 'saved' } : { kind: 'unsaved' };
       if (this.save.value.kind === 'saved') await this.measure();

@@ -2,7 +2,9 @@ import { batch, signal } from '@preact/signals';
 
 import type { CaseApi } from '../../wire/case_api';
 import type { CaseSummary, Job, Side } from '../../wire/rest_types';
-import { messageOf } from '../../wire/rest';
+import { ApiError, messageOf } from '../../wire/rest';
+import { CasePlans } from './case_plans';
+import { type RefusedFile, refusedFile } from './ct_file';
 import { followJob, pause } from './job_watch';
 import { dropUpload, forgetUpload, uploadFile, type UploadSource } from './upload';
 
@@ -16,7 +18,7 @@ export type NewCaseState =
   | { kind: 'idle' }
   | { kind: 'uploading'; received: number; bytes: number; waiting: boolean }
   | { kind: 'importing'; job: Job; silent: boolean }
-  | { kind: 'failed'; during: 'upload' | 'import'; message: string };
+  | { kind: 'failed'; during: 'upload' | 'import'; message: string; resumable: boolean };
 
 export interface NewCaseOptions {
   name: string;
@@ -30,10 +32,13 @@ export class CaseListController {
   readonly listFresh = signal(false);
   readonly listProblem = signal<string | null>(null);
   readonly file = signal<UploadSource | null>(null);
+  /** Why the file that was chosen last cannot be used. */
+  readonly refused = signal<RefusedFile | null>(null);
   /** Never guessed: the user says which shoulder it is. */
   readonly side = signal<Side | null>(null);
   readonly options = signal<NewCaseOptions>({ name: '', seriesUid: '' });
   readonly state = signal<NewCaseState>({ kind: 'idle' });
+  readonly plans: CasePlans;
   private abort = new AbortController();
 
   constructor(
@@ -41,7 +46,9 @@ export class CaseListController {
     readonly remembered: Pick<Storage, 'getItem' | 'setItem' | 'removeItem'>,
     /** The new case can be worked on. */
     private readonly onReady: (caseId: string) => void,
-  ) {}
+  ) {
+    this.plans = new CasePlans(api);
+  }
 
   async readCases(): Promise<void> {
     try {
@@ -51,12 +58,16 @@ export class CaseListController {
         this.listFresh.value = true;
         this.listProblem.value = null;
       });
+      void this.plans.read(cases);
     } catch (error) {
       this.listProblem.value = messageOf(error);
     }
   }
 
+  /** A file that can never become a case is refused at once, in words; what was chosen before stays. */
   choose(file: UploadSource): void {
+    this.refused.value = refusedFile(file);
+    if (this.refused.value !== null) return;
     this.file.value = file;
     this.state.value = { kind: 'idle' };
   }
@@ -102,14 +113,16 @@ export class CaseListController {
         if (job.case_id !== null) this.onReady(job.case_id);
       } else if (job?.state === 'failed') {
         const message = job.problem?.detail ?? job.problem?.title ?? job.step;
-        this.state.value = { kind: 'failed', during, message };
+        this.state.value = { kind: 'failed', during, message, resumable: false };
       } else {
         this.state.value = { kind: 'idle' };
       }
       await this.readCases();
     } catch (error) {
       if (signal.aborted) await dropUpload(file, this);
-      this.state.value = signal.aborted ? { kind: 'idle' } : { kind: 'failed', during, message: messageOf(error) };
+      this.state.value = signal.aborted
+        ? { kind: 'idle' }
+        : { kind: 'failed', during, message: messageOf(error), resumable: during === 'upload' && canPass(error) };
     }
   }
 
@@ -157,4 +170,9 @@ export class CaseListController {
       signal,
     );
   }
+}
+
+/** Whether another try may succeed: a link or server that fails, unlike a refusal of the file. */
+function canPass(error: unknown): boolean {
+  return !(error instanceof ApiError) || error.status === 0 || error.status === 409 || error.status >= 500;
 }

@@ -40,6 +40,19 @@ describe('stepStates', () => {
     expect(nextStep(states)).toBe('plan');
   });
 
+  it('keeps the bones to do where no shoulder was found, unless somebody says where it is', () => {
+    const found = (settings: object, head: object | null = null, warnings = ['no head']) =>
+      ({ revision: 1, humeral_head: head, settings, warnings }) as NonNullable<Case['segmentation']>;
+    const stateOf = (segmentation: Case['segmentation']) => stepStates(facts({ segmentation })).segment;
+    expect(stateOf(found({}))).toBe('todo');
+    expect(stateOf(found({ seeds: {} }))).toBe('todo');
+    expect(stateOf(found({ seeds: { clavicle: [1, 2, 3] } }))).toBe('todo');
+    expect(stateOf(found({ seeds: { scapula: [1, 2, 3] } }))).toBe('done');
+    expect(stateOf(found({}, { centre_mm: [1, 2, 3], radius_mm: 24 }))).toBe('done');
+    expect(stateOf(found({}, null, []))).toBe('done');
+    expect(nextStep(stepStates(facts({ segmentation: found({}) }, { landmarks: allPlaced })))).toBe('segment');
+  });
+
   it('knows cases that were built without their CT', () => {
     const states = stepStates(facts({ ct: null, plan, stage: 'built' }));
     expect(states).toMatchObject({ segment: 'done', build: 'done', ream: 'todo' });

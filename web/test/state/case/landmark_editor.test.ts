@@ -47,7 +47,9 @@ describe('LandmarkEditor', () => {
     for (let y = 0; y < 10; ++y) place(y);
     expect(controller.save.value.kind).toBe('unsaved');
     expect(controller.measured.value).toBe(false);
+    expect(controller.hasSaved.value).toBe(false);
     await settle();
+    expect(controller.hasSaved.value).toBe(true);
     expect(api.puts).toEqual([{ glenoid_centre_mm: [0, 9, 0] }]);
     expect(controller.save.value.kind).toBe('saved');
     expect(controller.measured.value).toBe(true);

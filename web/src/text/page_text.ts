@@ -1,0 +1,15 @@
+/** Words that several pages share. */
+export const pageText = {
+  actions: 'Actions',
+  auditLog: 'Audit log',
+  deletedSessions: 'Deleted sessions',
+  copy: 'Copy',
+  copied: 'Copied',
+  notCopied: 'Copy it by hand',
+  copyJoinCode: 'Copy join code',
+  report: 'Report',
+  reportOf: (id: string) => `Report of session ${id}`,
+  making: (percent: string) => `Report ${percent}`,
+  points: 'Points',
+  result: 'Result',
+};
