@@ -2,7 +2,7 @@
 export const trashText = {
   title: 'Deleted sessions',
   back: 'All sessions',
-  hint: 'A deleted session can be restored until its last day. After that it is deleted for good.',
+  hint: 'A deleted session can be restored until its last day. After that it is deleted permanently.',
   loading: 'Loading…',
   none: 'There are no deleted sessions.',
   count: (total: number) => (total === 1 ? '1 session' : `${total} sessions`),
