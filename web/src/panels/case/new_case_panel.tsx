@@ -5,12 +5,14 @@ import { caseText } from '../../text/case_text';
 import { ctEndings } from '../../state/case/ct_file';
 import type { CaseListController, NewCaseState } from '../../state/case/new_case';
 import type { Side } from '../../wire/rest_types';
-import { fixed, percent, sentence } from '../../text/format';
+import { fixed, percent } from '../../text/format';
 import { Message } from '../common/fields';
 import { JobProgress, ProgressBar } from './job_progress';
 import { Button } from '../common/button';
 
 const accepted = [...ctEndings, '.gz'].join();
+/** A file's name that begins the server's words stays as it is. */
+const withStop = (words: string) => (/[.!?…]$/.test(words) ? words : `${words}.`);
 const megabytes = (bytes: number) => fixed(bytes / 1e6, 1);
 
 /** A CT's file, whose shoulder it is, and how far its upload and reading are. */
@@ -173,7 +175,7 @@ function Progress({ controller, state }: { controller: CaseListController; state
       const during = state.resumable;
       return (
         <Message kind="bad" testId="new-case-failed">
-          <strong>{during ? caseText.uploadFailed : caseText.importFailed}.</strong> {sentence(state.message)}{' '}
+          <strong>{during ? caseText.uploadFailed : caseText.importFailed}.</strong> {withStop(state.message)}{' '}
           {during ? caseText.uploadFailedHint : caseText.importFailedHint}
         </Message>
       );
