@@ -74,7 +74,6 @@ export const liveText = {
   thrustExtremeWhy: (newtons: string) => `Over ${newtons} N, twice the 52 N of the cadaver experiments. Push less.`,
   depthPast: 'Past the planned depth',
   depthPastWhy: 'Stop, and withdraw.',
-  vaultBreached: 'Vault breached',
   surfaceWarm: 'Bone too warm',
   surfaceWarmWhy: (celsius: string) => `From ${celsius} °C bone dies within a minute. Irrigate, or lift the reamer.`,
   surfaceHot: 'Bone dies',
@@ -109,6 +108,4 @@ export const liveText = {
   theatreShort: 'for Practise: no gauges, no plan, no help',
   theatreHint:
     'The reamer is opaque, seen from the beach chair; no gauges, no plan: only sound and force. It begins beside the plan and leaning, and the longer you push, the harder.',
-
-  vaultWhy: 'The component’s pegs would go through the outer cortex, as the score says.',
 };

@@ -33,23 +33,24 @@ export function Figure({
 export function Figures({ store }: { store: Store }) {
   const hello = store.hello.value;
   const t = store.reading.value.telemetry;
-  const engaged = t !== null && t.densityGCc > 0;
+  const now = store.atReamer.value;
+  const engaged = now !== null && now.densityGCc > 0;
   return (
     <dl class="figures">
       <Figure name={appText.removed} unit="mm³" id="removed-volume">
         {fixed(t?.removedVolumeMm3, 0)}
       </Figure>
       <Figure name={appText.hand} unit="N" id="hand-force">
-        {fixed(t?.handForceN, 2)}
+        {fixed(now?.handForceN, 2)}
       </Figure>
       <Figure name={appText.density} unit="g/cc">
-        {engaged ? fixed(t.densityGCc, 2) : appText.none}
+        {engaged ? fixed(now.densityGCc, 2) : appText.none}
       </Figure>
       <Figure name={appText.cortical} unit="%">
-        {engaged ? fixed(t.corticalShare * 100, 0) : appText.none}
+        {engaged ? fixed(now.corticalShare * 100, 0) : appText.none}
       </Figure>
-      <Spindle telemetry={t} />
-      <SurfaceTemperature celsius={t?.surfaceTemperatureC ?? null} />
+      <Spindle telemetry={now} />
+      <SurfaceTemperature celsius={now?.surfaceTemperatureC ?? null} />
       <Figure name={appText.time} unit="s" id="session-time">
         {fixed(t === null ? null : t.tick / 1000, 1)}
       </Figure>

@@ -18,7 +18,7 @@ const reachDeg = 15;
 /** Where the reamer points and how deep it is, each against the plan. */
 export function Gauges({ store, liveCase }: { store: Store; liveCase: LiveCase }) {
   const hello = store.hello.value;
-  const telemetry = store.reading.value.telemetry;
+  const telemetry = store.atReamer.value;
   if (hello === null) return <DepthMeter store={store} />;
   const plan = new PlanFrame(hello);
   const frame = faceFrame(plan, liveCase.landmarks.value);
