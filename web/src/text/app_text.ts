@@ -1,7 +1,8 @@
 /** Texts of the live page and of what all pages share; those of other pages are loaded with them. */
 import type { SessionState } from '../wire/messages';
 
-const markKinds: Record<string, string> = {
+/** By the kind of an event, as recordings name it. */
+export const markKinds: Readonly<Record<string, string>> = {
   annotation: 'Remark',
   resume: 'Resumed',
   reamer: 'Reamer changed',
@@ -11,6 +12,15 @@ const markKinds: Record<string, string> = {
   contact: 'Pressed on bone',
   withdrawn: 'Let go',
   excess: 'Thrust over 78 N',
+  device_lost: 'Device lost',
+  device_back: 'Device connected',
+  spindle_loaded: 'Spindle started under load',
+  spindle_stalled: 'Spindle stalled',
+  paused: 'Paused',
+  continued: 'Resumed',
+  failover: 'Computing device failed',
+  fault: 'Fault',
+  interrupted: 'Interrupted',
 };
 
 export const appText = {
@@ -127,7 +137,7 @@ export const appText = {
   momentOf: (position: string, duration: string) => `${position} of ${duration}`,
   speed: 'Speed',
   replayed: 'replay',
-  mark: (kind: string) => markKinds[kind] ?? kind.charAt(0).toUpperCase() + kind.slice(1),
+  mark: (kind: string) => markKinds[kind] ?? (kind.charAt(0).toUpperCase() + kind.slice(1)).replaceAll(/[_-]/g, ' '),
 
   linkConnecting: 'Connecting',
   linkLive: 'Live',
