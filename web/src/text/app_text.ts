@@ -252,7 +252,7 @@ export const appText = {
   guideShow: 'Help',
 
   practice: 'Practice',
-  spindleButton: (on: boolean) => (on ? 'Spindle on' : 'Spindle off'),
+  spindleButton: (on: boolean) => (on ? 'Stop spindle' : 'Start spindle'),
   irrigationButton: 'Irrigation',
   pauseButton: (paused: boolean) => (paused ? 'Go on' : 'Pause'),
   pushButton: 'Push',
