@@ -178,6 +178,11 @@ test('in theatre there is nothing but the bone, an opaque reamer, sound and forc
   await open(page);
   await page.getByTestId('cut-away').click();
   await page.getByTestId('theatre-mode').check();
+  const eye = async () => {
+    const { target, towardsEye, distanceMm } = (await readout(page)).eye;
+    return [target.x, target.y, target.z, towardsEye.x, towardsEye.y, towardsEye.z, distanceMm];
+  };
+  const eyeBefore = await eye();
   await page.getByTestId('practise').click();
   const theatre = page.getByTestId('trainee-page');
   await expect(theatre).toHaveAttribute('data-theatre', 'true');
@@ -223,6 +228,10 @@ test('in theatre there is nothing but the bone, an opaque reamer, sound and forc
   await page.getByTestId('end-theatre').click();
   await expect(page.getByTestId('gauge-version')).toBeVisible();
   await expect(page.getByTestId('cut-away')).toHaveAttribute('aria-pressed', 'true');
+  // The bone is seen from where it was seen before.
+  await expect
+    .poll(async () => Math.max(...(await eye()).map((value, i) => Math.abs(value - (eyeBefore[i] ?? NaN)))))
+    .toBeLessThan(0.5);
 });
 
 test('shows the CT beside the picture, with the outline of the reamer, once it is asked for', async ({
