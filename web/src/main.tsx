@@ -20,6 +20,8 @@ import { headsetMessage } from './scene/headset_text';
 import { isActive } from './state/choose_session';
 import { addressOfReplay, replayInAddress } from './state/replay_address';
 import { addressOfRoute, followRoute, type Route, routeInAddress, showsSession } from './state/route';
+import { layReamerAside } from './state/reamer_at_end';
+import { ResultWatch } from './state/result_watch';
 import { Sound } from './state/sound';
 import { Store } from './state/store';
 import { FeelWatch } from './state/study/feel_watch';
@@ -84,6 +86,10 @@ function main(root: HTMLElement): void {
   effect(() => scene.setView(view.shown.value, view.theatre.value));
   const tutorial = makeTutorial({ store, watcher, practice, practiceStore }, scene, view);
   keepForPerson(identity, view, tutorial);
+  const review = new ReviewApi(window.location.origin);
+  const feel = watchForFeel(identity, { store, practice: practiceStore, route });
+  const hidden = computed(() => feel.hidden.value !== null);
+  const result = new ResultWatch({ store, score: (id) => review.score(id), hidden });
   effect(() => scene.setAim(practiceStore.plan.value, practiceStore.hand.place.value));
   render(
     <App
@@ -97,12 +103,14 @@ function main(root: HTMLElement): void {
         alarms,
         sound,
         latency,
-        annotations: new LiveAnnotations(store, new ReviewApi(window.location.origin)),
+        annotations: new LiveAnnotations(store, review),
         theatreWanted: signal(false),
         practice,
         practiceStore,
         tutorial,
-        feel: watchForFeel(identity, { store, practice: practiceStore, route }),
+        feel,
+        result,
+        review,
       }}
       identity={identity}
     />,
@@ -125,6 +133,7 @@ function showReamer(store: Store, scene: BoneScene): void {
   effect(() => {
     if (scene.headset.worn.value) scene.headset.show(headsetMessage(store));
   });
+  layReamerAside(store);
   effect(() => scene.setToolShown(store.reamerShown.value));
 }
 

@@ -1,4 +1,4 @@
-import { Figures, Results } from '../panels/live/figures';
+import { Figures } from '../panels/live/figures';
 import { type Signal, signal } from '@preact/signals';
 
 import { ForcePlots } from '../panels/live/force_plot';
@@ -13,6 +13,7 @@ import { PracticeBar } from '../panels/live/practice_bar';
 import { ProblemBanner } from '../panels/common/problem_banner';
 import { AnnotationsPanel } from '../panels/live/annotations_panel';
 import { ReplayPanel } from '../panels/live/replay_panel';
+import { ResultCard } from '../panels/live/result_card';
 import { RunPanel } from '../panels/live/run_panel';
 import { SessionList } from '../panels/live/session_list';
 import { TutorialPanel } from '../panels/live/tutorial_panel';
@@ -23,12 +24,14 @@ import type { LiveCase } from '../state/live_case';
 import type { LiveAnnotations } from '../state/live_annotations';
 import type { Practice } from '../state/practice';
 import type { PracticeStore } from '../state/practice_store';
+import type { ResultWatch } from '../state/result_watch';
 import type { Sound } from '../state/sound';
 import type { Store } from '../state/store';
 import type { Tutorial } from '../state/tutorial_guide';
 import type { FeelWatch } from '../state/study/feel_watch';
 import type { ViewSettings } from '../state/view_settings';
 import type { Watcher } from '../state/watcher';
+import type { ReviewApi } from '../wire/review_api';
 
 const slices = lazyPart(() => import('../panels/picture/live_slices'));
 const slicesOpen = signal(false);
@@ -48,6 +51,8 @@ export interface LivePageParts {
   practiceStore: PracticeStore;
   tutorial: Tutorial;
   feel: FeelWatch;
+  result: ResultWatch;
+  review: ReviewApi;
 }
 
 /** One session, live or as it was recorded: picture, force, numbers, and what can be done. */
@@ -64,21 +69,17 @@ export function LivePage(parts: LivePageParts) {
         <LiveStrip store={store} practice={practiceStore} latency={latency} sound={sound} slicesOpen={slicesOpen} />
         {slicesOpen.value &&
           slices.show(({ LiveSlicesPanel }) => <LiveSlicesPanel store={store} liveCase={liveCase} />)}
+        <ResultCard {...parts} quiet={guided} />
       </Picture>
       {store.replaying.value && <PlaybackBar store={store} player={watcher} />}
       {practiceStore.steering.value && <PracticeBar practice={practiceStore} toPicture={toPicture} />}
       <aside class={store.upToDate.value ? 'side' : 'side stale'}>
-        {store.replaying.value ? (
-          <ReplayPanel store={store} watcher={watcher} />
-        ) : (
-          <RunPanel {...{ store, watcher, practice, practiceStore, tutorial }} theatreWanted={parts.theatreWanted} />
-        )}
+        {store.replaying.value ? <ReplayPanel store={store} watcher={watcher} /> : <RunPanel {...parts} />}
         <ProblemBanner store={store} />
         <div class="readings">
           <ForcePlots store={store} />
           <Gauges store={store} liveCase={liveCase} />
           <Figures store={store} />
-          <Results store={store} />
         </div>
         {!store.replaying.value && <AnnotationsPanel store={store} annotations={parts.annotations} />}
         <SessionList store={store} watcher={watcher} />

@@ -3,6 +3,7 @@ import { useMemo } from 'preact/hooks';
 import { liveText } from '../text/live_text';
 import { useLiveKeys } from '../panels/picture/live_keys';
 import { Picture } from '../panels/live/picture';
+import { ResultCard } from '../panels/live/result_card';
 import { DriveButtons, PauseButton } from '../panels/live/practice_bar';
 import { SoundButton } from '../panels/picture/sound_button';
 import { addressOfReplay } from '../state/replay_address';
@@ -43,6 +44,7 @@ export function TraineePage(parts: LivePageParts) {
             </a>
           )}
         </div>
+        <ResultCard {...parts} />
       </Picture>
     </div>
   );

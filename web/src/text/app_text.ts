@@ -215,12 +215,6 @@ export const appText = {
   notLive: 'not live',
   none: '–',
 
-  results: 'Result',
-  meanThrust: 'Mean thrust',
-  peakThrust: 'Peak thrust',
-  corticalVolume: 'Cortical bone',
-  cancellousVolume: 'Cancellous bone',
-
   side: (side: string) => (side === 'left' ? 'Left shoulder' : side === 'right' ? 'Right shoulder' : 'Side unknown'),
 
   view: 'View',

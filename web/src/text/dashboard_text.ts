@@ -42,12 +42,6 @@ export const dashboardText = {
   result: 'Result',
   points: 'Points',
   noPoints: 'not judged',
-  outcome: {
-    pass: 'Passed',
-    fail: 'Failed',
-    undecided: 'Undecided',
-    none: 'Not judged',
-  },
   interrupted: 'Interrupted',
   faulted: 'Fault',
   replay: 'Replay',

@@ -137,7 +137,6 @@ export const reviewText = {
   points: (points: string) => `${points} of 100`,
   noPoints: 'No mark',
   nextTime: 'Next time',
-  outcome: { pass: 'Passed', fail: 'Failed', undecided: 'Undecided' },
   noOutcome: 'Judged by nobody: the rubric decides nothing.',
   rubric: (name: string, version: number, passPoints: number | undefined) =>
     `Rubric “${name}”, version ${version}${passPoints === undefined ? '' : `; ${passPoints} points pass`}`,

@@ -106,28 +106,3 @@ function SurfaceTemperature({ celsius }: { celsius: number | null }) {
     </Figure>
   );
 }
-
-/** Final figures of a session that has ended. */
-export function Results({ store }: { store: Store }) {
-  const metrics = store.metrics.value;
-  if (metrics === null) return null;
-  return (
-    <section class="results" aria-labelledby="results-title" data-testid="results">
-      <h2 id="results-title">{appText.results}</h2>
-      <dl class="figures">
-        <Figure name={appText.meanThrust} unit="N">
-          {fixed(metrics.axial_thrust_mean_n, 1)}
-        </Figure>
-        <Figure name={appText.peakThrust} unit="N">
-          {fixed(metrics.axial_thrust_peak_n, 1)}
-        </Figure>
-        <Figure name={appText.corticalVolume} unit="mm³">
-          {fixed(metrics.removed_volume_cortical_mm3, 0)}
-        </Figure>
-        <Figure name={appText.cancellousVolume} unit="mm³">
-          {fixed(metrics.removed_volume_cancellous_mm3, 0)}
-        </Figure>
-      </dl>
-    </section>
-  );
-}

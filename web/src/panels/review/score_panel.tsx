@@ -3,6 +3,7 @@ import { useMemo } from 'preact/hooks';
 
 import type { Pane } from './review_workspace';
 import { limits, limitsTitle } from '../../text/limits_text';
+import { outcomeText } from '../../text/result_text';
 import { reviewText } from '../../text/review_text';
 import { groupedMetrics, number, valueText } from '../../state/review/score_text';
 import type { Score, ScoredMetric, Verdict } from '../../wire/rest_types';
@@ -71,7 +72,7 @@ function Mark({ score, problem, place, several }: MarkParts) {
         <strong>{points === null ? reviewText.noPoints : reviewText.points(fixed(points, 1))}</strong>
         <span class={`outcome outcome-${outcome ?? 'none'}`}>
           <span aria-hidden="true">{outcome === null ? '' : { pass: '● ', fail: '⬣ ', undecided: '▲ ' }[outcome]}</span>
-          {outcome === null ? reviewText.noOutcome : reviewText.outcome[outcome]}
+          {outcome === null ? reviewText.noOutcome : outcomeText[outcome]}
         </span>
         {theatre && (
           <span class="role-chip" title={reviewText.theatreHint}>
