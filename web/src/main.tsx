@@ -9,6 +9,7 @@ import { publishDebugReadout } from './debug_readout';
 import { App } from './pages/app';
 import { BoneScene } from './scene/scene';
 import { Alarms } from './state/alarms';
+import { healthHere } from './state/health';
 import { Identity } from './state/identity';
 import { Latency } from './state/latency';
 import { LiveCase } from './state/live_case';
@@ -103,6 +104,7 @@ function main(root: HTMLElement): void {
         alarms,
         sound,
         latency,
+        health: healthHere(store, practiceStore, latency),
         annotations: new LiveAnnotations(store, review),
         theatreWanted: signal(false),
         practice,

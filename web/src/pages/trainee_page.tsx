@@ -2,6 +2,7 @@ import { useMemo } from 'preact/hooks';
 
 import { liveText } from '../text/live_text';
 import { useLiveKeys } from '../panels/picture/live_keys';
+import { DepthMeter } from '../panels/live/depth_meter';
 import { Picture } from '../panels/live/picture';
 import { ResultCard } from '../panels/live/result_card';
 import { DriveButtons, PauseButton } from '../panels/live/practice_bar';
@@ -19,6 +20,7 @@ export function TraineePage(parts: LivePageParts) {
   return (
     <div class="trainee-page" data-testid="trainee-page" data-theatre={theatre}>
       <Picture store={store} practice={practiceStore} scene={scene} view={view} alarms={alarms} bare={true}>
+        {!theatre && <DepthMeter store={store} />}
         <div class="trainee-bar" role="group" aria-label={appText.practice}>
           {practiceStore.steering.value && <HoldButtons {...parts} />}
           <SoundButton sound={sound} />

@@ -140,7 +140,6 @@ export const appText = {
   mark: (kind: string) => markKinds[kind] ?? (kind.charAt(0).toUpperCase() + kind.slice(1)).replaceAll(/[_-]/g, ' '),
 
   linkConnecting: 'Connecting',
-  linkLive: 'Live',
   linkSilent: 'No updates',
   linkLost: 'Link lost',
   linkRefused: 'Wrong version',
@@ -289,9 +288,6 @@ export const appText = {
   noticeDepthText: 'Release, and withdraw.',
 
   health: 'Simulator health',
-  healthUnknown: 'not known',
-  healthOnTime: 'on time',
-  healthLate: (percent: string) => `${percent} % of ticks late`,
   tickTimes: 'Tick p50 / p99',
   tickTail: 'Tick p99.9 / max',
   lateness: 'Lateness p50 / p99',

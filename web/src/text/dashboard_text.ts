@@ -31,7 +31,6 @@ export const dashboardText = {
   alarmThrust: 'Thrust over 78 N',
   alarmDepth: (mm: string) => `${mm} mm past the plan`,
   alarmVault: (mm: string) => `Vault breached by ${mm} mm`,
-  alarmLate: (percent: string) => `${percent} % of ticks late`,
 
   recent: 'Recent sessions',
   noneRecent: 'No session has ended yet. Practise or run the demo in the live view.',

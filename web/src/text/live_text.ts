@@ -78,16 +78,12 @@ export const liveText = {
   surfaceWarmWhy: (celsius: string) => `From ${celsius} °C bone dies within a minute. Irrigate, or lift the reamer.`,
   surfaceHot: 'Bone dies',
   surfaceHotWhy: (celsius: string) => `From ${celsius} °C bone dies at once. Irrigate, and withdraw.`,
-  strip: 'Latency, loop and force',
   handDelay: 'Hand to picture',
   handDelayHint:
     'From the moment at which your hand was sampled to the end of drawing what it did; 95 of 100 are faster.',
   drawDelay: 'Picture delay',
   drawDelayHint:
     'From the arrival of a message to the end of drawing it, 95 of 100 are faster; and how much longer than usual it was on its way.',
-  loop: 'Loop',
-  force: 'Force',
-  forceScaleHint: 'Simulated newtons for each newton at the hand',
   soundButton: (on: boolean) => (on ? 'Turn sound off' : 'Turn sound on'),
   soundHint: 'The sound of the reamer: its drive, and the vibration that the hand feels',
   noSound: 'This browser gives no sound.',

@@ -2,6 +2,7 @@ import { dashboardText } from '../../text/dashboard_text';
 import type { Tile } from '../../state/dashboard/live_board';
 import { alarmsOf, type TileAlarm } from '../../state/dashboard/tile_alarms';
 import type { Session } from '../../wire/rest_types';
+import { healthText } from '../../text/health_text';
 import { appText } from '../../text/app_text';
 import { clock, fixed, minutes } from '../../text/format';
 
@@ -127,7 +128,8 @@ function alarmText({ kind, value, message }: TileAlarm): string {
       return dashboardText.alarmDepth(fixed(value, 1));
     case 'thrust':
       return dashboardText.alarmThrust;
-    case 'late':
-      return dashboardText.alarmLate(fixed(value, 1));
+    case 'slow':
+    case 'lost':
+      return `${healthText.state[kind]}${message ? `. ${message}` : ''}`;
   }
 }

@@ -31,7 +31,6 @@ export function Figure({
 
 /** The numbers of the moment; a dash where none is known. */
 export function Figures({ store }: { store: Store }) {
-  const hello = store.hello.value;
   const t = store.reading.value.telemetry;
   const now = store.atReamer.value;
   const engaged = now !== null && now.densityGCc > 0;
@@ -54,18 +53,6 @@ export function Figures({ store }: { store: Store }) {
       <Figure name={appText.time} unit="s" id="session-time">
         {fixed(t === null ? null : t.tick / 1000, 1)}
       </Figure>
-      <Figure name={appText.forceScale} unit=": 1">
-        {fixed(hello?.forceScale, 0)}
-      </Figure>
-      {!store.replaying.value && (
-        <>
-          <Figure name={appText.loop} unit="µs" id="tick-times">
-            {fixed(t?.tickMeanUs, 0)} / {fixed(t?.tickP99Us, 0)}
-          </Figure>
-          <Figure name={appText.missed}>{fixed(t?.ticksMissed, 0)}</Figure>
-        </>
-      )}
-      {t !== null && t.dropped > 0 && <Figure name={appText.lostSamples}>{fixed(t.dropped, 0)}</Figure>}
     </dl>
   );
 }
