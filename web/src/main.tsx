@@ -89,8 +89,6 @@ function main(root: HTMLElement): void {
   keepForPerson(identity, view, tutorial);
   const review = new ReviewApi(window.location.origin);
   const feel = watchForFeel(identity, { store, practice: practiceStore, route });
-  const hidden = computed(() => feel.hidden.value !== null);
-  const result = new ResultWatch({ store, score: (id) => review.score(id), hidden });
   effect(() => scene.setAim(practiceStore.plan.value, practiceStore.hand.place.value));
   render(
     <App
@@ -111,7 +109,7 @@ function main(root: HTMLElement): void {
         practiceStore,
         tutorial,
         feel,
-        result,
+        result: watchForResult(store, review, feel),
         review,
       }}
       identity={identity}
@@ -145,6 +143,12 @@ function watchForFeel(
 ): FeelWatch {
   const studies = new StudyApi(window.location.origin);
   return new FeelWatch({ ...watched, may: () => identity.may.value, study: (id) => studies.study(id) });
+}
+
+/** Of what a study of feel hides, not even the score is asked for. */
+function watchForResult(store: Store, review: ReviewApi, feel: FeelWatch): ResultWatch {
+  const hidden = computed(() => feel.hidden.value !== null);
+  return new ResultWatch({ store, score: (id) => review.score(id), hidden });
 }
 
 /** Who teaches and logs in begins the day with the overview, unless the address names a page. */

@@ -55,7 +55,8 @@ export function healthHere(store: Store, practice: PracticeStore, latency: Laten
 function whatIsLost(store: Store, practice: PracticeStore): HealthCause | null {
   const link = store.link.value.kind;
   if (link === 'refused') return 'version';
-  if (link === 'lost' || link === 'silent') return 'stream';
+  // A server that still prepares says so itself.
+  if (link === 'silent' || (link === 'lost' && store.hasPicture.value)) return 'stream';
   const hand = practice.link.value.kind;
   return practice.steering.value && (hand === 'lost' || hand === 'silent') ? 'hand' : null;
 }

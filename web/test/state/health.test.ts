@@ -36,6 +36,8 @@ describe('the simulator’s health', () => {
     store.link.value = { kind: 'silent', sinceMs: 0 };
     expect(said(health.value)).toBe('lost stream');
     store.link.value = { kind: 'lost', sinceMs: 0, retryAtMs: null, reason: '' };
+    expect(health.value).toBeNull();
+    store.hasPicture.value = true;
     expect(said(health.value)).toBe('lost stream');
     store.link.value = { kind: 'refused', serverRevision: 1 };
     expect(said(health.value)).toBe('lost version');

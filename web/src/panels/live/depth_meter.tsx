@@ -16,6 +16,7 @@ export function DepthMeter({ store }: { store: Store }) {
   const share = plannedMm > 0 && depthMm !== null ? Math.min(Math.max((depthMm / plannedMm) * planShare, 0), 1) : 0;
   const past = plannedMm > 0 && (depthMm ?? 0) - plannedMm > reachedWithinMm;
   const text = depthText(depthMm, plannedMm);
+  if (store.hello.value === null) return null;
   return (
     <section class="depth" aria-labelledby="depth-title" title={appText.depthMeaning} data-testid="depth-meter">
       <h2 id="depth-title">{appText.depth}</h2>
