@@ -10,7 +10,7 @@ const here = serverForEachTest();
 async function openReady(page: Page): Promise<void> {
   await page.goto(here.server.url);
   await untilLive(page);
-  await expect(page.getByTestId('link-state')).toHaveText('Live');
+  await expect(page.getByTestId('link-state')).toHaveText('Ready');
   await expect(page.getByTestId('session-state')).toHaveAttribute('data-state', 'created');
 }
 

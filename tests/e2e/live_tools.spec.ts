@@ -122,18 +122,22 @@ test('glides to the surgeon’s view and gives the view back to the hand that tu
   await expect.poll(() => changed(page, own)).toBeLessThan(200);
 });
 
-test('always says how late picture and loop are, and sounds only when asked', async ({ page }, info) => {
+test('says in one word whether the simulation keeps up, and sounds only when asked', async ({ page }, info) => {
   await open(page);
-  await expect(page.getByTestId('force-scale')).toContainText(/Force \d+ : 1/);
+  const dot = page.getByTestId('health-dot');
+  // The figures behind it are for who looks for them.
+  await expect(page.getByTestId('force-scale')).toHaveText(/^\d+$/);
+  await expect(page.getByTestId('force-scale')).toBeHidden();
   await expect(page.getByTestId('latency')).toHaveText('–');
   const sound = page.getByTestId('sound');
-  await expect(sound).toHaveAttribute('aria-pressed', 'false');
+  await expect(sound).toHaveText('Turn sound on');
   await sound.click();
-  await expect(sound).toHaveAttribute('aria-pressed', 'true');
+  await expect(sound).toHaveText('Turn sound off');
   expect((await page.evaluate(() => window.__ream.sound)).motorGain).toBe(0);
   await page.getByTestId('run-demo').click();
   await expect.poll(async () => Number(await page.getByTestId('latency').textContent())).toBeGreaterThan(0);
-  await expect(page.getByTestId('loop-health')).toContainText(/OK|slow/);
+  await expect(dot).toContainText(/Simulation: (OK|running slow)/);
+  await expect(page.getByTestId('live-strip')).not.toContainText(/ ms|ticks|p95/);
   await expect
     .poll(async () => (await page.evaluate(() => window.__ream.sound)).trackGain, { timeout: 90_000 })
     .toBeGreaterThan(0);
@@ -144,8 +148,9 @@ test('always says how late picture and loop are, and sounds only when asked', as
   await expect(page.getByTestId('picture')).toHaveAttribute('data-stale', 'true');
   expect(await page.evaluate(() => window.__ream.sound)).toMatchObject({ motorGain: 0, cuttingGain: 0, trackGain: 0 });
   await expect(page.getByTestId('latency')).toHaveText('–');
+  await expect(dot).toContainText('Simulation: connection lost');
   await page.keyboard.press('m');
-  await expect(sound).toHaveAttribute('aria-pressed', 'false');
+  await expect(sound).toHaveText('Turn sound on');
 });
 
 test('the trainee’s view is the picture alone, and steers', async ({ page }, info) => {
@@ -153,7 +158,7 @@ test('the trainee’s view is the picture alone, and steers', async ({ page }, i
   await page.getByTestId('practise').click();
   await page.waitForFunction(() => window.__ream.deviceLink === 'holding', null, { timeout: 60_000 });
   // Of a hand on this page it is known how long it takes to be seen.
-  await expect(page.getByTestId('live-strip')).toContainText('Input delay');
+  await expect(page.getByTestId('health')).toContainText('Input delay');
   await expect.poll(async () => Number(await page.getByTestId('latency').textContent())).toBeGreaterThan(0);
   await page.getByTestId('to-trainee').click();
   await expect(page.getByTestId('trainee-page')).toHaveAttribute('data-theatre', 'false');
@@ -161,7 +166,7 @@ test('the trainee’s view is the picture alone, and steers', async ({ page }, i
   const box = await canvas(page).boundingBox();
   expect(box).toMatchObject({ width: 1280, height: 720 });
   await page.getByTestId('spindle').click();
-  await expect(page.getByTestId('spindle')).toHaveAttribute('aria-pressed', 'true');
+  await expect(page.getByTestId('spindle')).toHaveText('Stop spindle');
   expect((await page.evaluate(() => window.__ream)).deviceLink).toBe('holding');
   await page.screenshot({ path: info.outputPath('trainee.png') });
   await page.getByTestId('leave-trainee').click();
@@ -178,6 +183,11 @@ test('in theatre there is nothing but the bone, an opaque reamer, sound and forc
   await open(page);
   await page.getByTestId('cut-away').click();
   await page.getByTestId('theatre-mode').check();
+  const eye = async () => {
+    const { target, towardsEye, distanceMm } = (await readout(page)).eye;
+    return [target.x, target.y, target.z, towardsEye.x, towardsEye.y, towardsEye.z, distanceMm];
+  };
+  const eyeBefore = await eye();
   await page.getByTestId('practise').click();
   const theatre = page.getByTestId('trainee-page');
   await expect(theatre).toHaveAttribute('data-theatre', 'true');
@@ -223,6 +233,10 @@ test('in theatre there is nothing but the bone, an opaque reamer, sound and forc
   await page.getByTestId('end-theatre').click();
   await expect(page.getByTestId('gauge-version')).toBeVisible();
   await expect(page.getByTestId('cut-away')).toHaveAttribute('aria-pressed', 'true');
+  // The bone is seen from where it was seen before.
+  await expect
+    .poll(async () => Math.max(...(await eye()).map((value, i) => Math.abs(value - (eyeBefore[i] ?? NaN)))))
+    .toBeLessThan(0.5);
 });
 
 test('shows the CT beside the picture, with the outline of the reamer, once it is asked for', async ({
@@ -259,4 +273,36 @@ test('shows the CT beside the picture, with the outline of the reamer, once it i
   await page.screenshot({ path: info.outputPath('slices.png') });
   await page.keyboard.press('t');
   await expect(page.getByTestId('live-slices')).toHaveCount(0);
+});
+
+test('nothing stands over the place that is aimed at, and the depth is beside it', async ({ page }, info) => {
+  await open(page);
+  await page.getByTestId('practise').click();
+  await page.waitForFunction(() => window.__ream.deviceLink === 'holding', null, { timeout: 60_000 });
+  /** The planned entry is in the middle of the picture. */
+  const atEntry = () =>
+    canvas(page).evaluate((element) => {
+      const box = element.getBoundingClientRect();
+      const top = document.elementFromPoint(box.x + box.width / 2, box.y + box.height / 2);
+      return top === element ? 'the picture' : (top?.className ?? 'nothing');
+    });
+  for (const [width, height] of [
+    [1280, 720],
+    [1024, 768],
+    [1920, 1080],
+    [390, 844],
+  ] as const) {
+    await page.setViewportSize({ width, height });
+    await canvas(page).scrollIntoViewIfNeeded();
+    await page.screenshot({ path: info.outputPath(`live-${width}.png`) });
+    await expect(page.getByTestId('depth')).toBeInViewport();
+    if (width < 1000) continue;
+    expect(await atEntry(), `${width}`).toBe('the picture');
+    await page.getByTestId('sections').click();
+    await expect(page.getByTestId('section-axial')).toBeVisible();
+    await drawn(page);
+    await page.screenshot({ path: info.outputPath(`sections-${width}.png`) });
+    expect(await atEntry(), `${width} with sections`).toBe('the picture');
+    await page.getByTestId('sections').click();
+  }
 });

@@ -10,6 +10,7 @@ import { publishDebugReadout } from './debug_readout';
 import { App } from './pages/app';
 import { BoneScene } from './scene/scene';
 import { Alarms } from './state/alarms';
+import { healthHere } from './state/health';
 import { Identity } from './state/identity';
 import { Latency } from './state/latency';
 import { LiveCase } from './state/live_case';
@@ -22,6 +23,8 @@ import { isActive } from './state/choose_session';
 import { followTitle } from './state/page_title';
 import { addressOfReplay, replayInAddress } from './state/replay_address';
 import { addressOfRoute, followRoute, type Route, routeInAddress, showsSession } from './state/route';
+import { layReamerAside } from './state/reamer_at_end';
+import { ResultWatch } from './state/result_watch';
 import { Sound } from './state/sound';
 import { Store } from './state/store';
 import { FeelWatch } from './state/study/feel_watch';
@@ -86,6 +89,8 @@ function main(root: HTMLElement): void {
   effect(() => scene.setView(view.shown.value, view.theatre.value));
   const tutorial = makeTutorial({ store, watcher, practice, practiceStore }, scene, view);
   keepForPerson(identity, view, tutorial);
+  const review = new ReviewApi(window.location.origin);
+  const feel = watchForFeel(identity, { store, practice: practiceStore, route });
   effect(() => scene.setAim(practiceStore.plan.value, practiceStore.hand.place.value));
   render(
     <App
@@ -99,12 +104,15 @@ function main(root: HTMLElement): void {
         alarms,
         sound,
         latency,
-        annotations: new LiveAnnotations(store, new ReviewApi(window.location.origin)),
+        health: healthHere(store, practiceStore, latency),
+        annotations: new LiveAnnotations(store, review),
         theatreWanted: signal(false),
         practice,
         practiceStore,
         tutorial,
-        feel: watchForFeel(identity, { store, practice: practiceStore, route }),
+        feel,
+        result: watchForResult(store, review, feel),
+        review,
       }}
       identity={identity}
     />,
@@ -128,6 +136,7 @@ function showReamer(store: Store, scene: BoneScene): void {
   effect(() => {
     if (scene.headset.worn.value) scene.headset.show(headsetMessage(store));
   });
+  layReamerAside(store);
   effect(() => scene.setToolShown(store.reamerShown.value));
 }
 
@@ -137,6 +146,12 @@ function watchForFeel(
 ): FeelWatch {
   const studies = new StudyApi(window.location.origin);
   return new FeelWatch({ ...watched, may: () => identity.may.value, study: (id) => studies.study(id) });
+}
+
+/** Of what a study of feel hides, not even the score is asked for. */
+function watchForResult(store: Store, review: ReviewApi, feel: FeelWatch): ResultWatch {
+  const hidden = computed(() => feel.hidden.value !== null);
+  return new ResultWatch({ store, score: (id) => review.score(id), hidden });
 }
 
 /** Who teaches and logs in begins the day with the overview, unless the address names a page. */

@@ -2,7 +2,9 @@ import { useMemo } from 'preact/hooks';
 
 import { liveText } from '../text/live_text';
 import { useLiveKeys } from '../panels/picture/live_keys';
+import { DepthMeter } from '../panels/live/depth_meter';
 import { Picture } from '../panels/live/picture';
+import { ResultCard } from '../panels/live/result_card';
 import { DriveButtons, PauseButton } from '../panels/live/practice_bar';
 import { SoundButton } from '../panels/picture/sound_button';
 import { addressOfReplay } from '../state/replay_address';
@@ -18,6 +20,7 @@ export function TraineePage(parts: LivePageParts) {
   return (
     <div class="trainee-page" data-testid="trainee-page" data-theatre={theatre}>
       <Picture store={store} practice={practiceStore} scene={scene} view={view} alarms={alarms} bare={true}>
+        {!theatre && <DepthMeter store={store} />}
         <div class="trainee-bar" role="group" aria-label={appText.practice}>
           {practiceStore.steering.value && <HoldButtons {...parts} />}
           <SoundButton sound={sound} />
@@ -43,6 +46,7 @@ export function TraineePage(parts: LivePageParts) {
             </a>
           )}
         </div>
+        <ResultCard {...parts} />
       </Picture>
     </div>
   );

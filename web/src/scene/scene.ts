@@ -86,7 +86,10 @@ export class BoneScene implements SteeredView {
     this.orbit = new OrbitCamera(
       this.canvas,
       () => this.invalidate(),
-      () => this.onInteraction(),
+      () => {
+        this.surgeon.taken();
+        this.onInteraction();
+      },
     );
     this.surgeon = new SurgeonCamera(this.orbit);
     this.lights = new OperatingLights(this.scene);
@@ -156,6 +159,7 @@ export class BoneScene implements SteeredView {
     return { ...this.orbit.eyePose(this.orbit.screenDirections().up), distanceMm: this.orbit.distanceMm };
   }
   setEye(eye: Eye): void {
+    this.surgeon.taken();
     this.orbit.setEyePose(eye, eye.distanceMm);
     this.invalidate();
   }
@@ -173,6 +177,7 @@ export class BoneScene implements SteeredView {
     if (this.framedCase !== hello.caseId) {
       this.framedCase = hello.caseId;
       this.orbit.look('plan');
+      this.surgeon.framed();
       // Who wears the headset already was placed before nothing, or before another bone.
       this.headset.place(this.standpoint());
     }
@@ -262,6 +267,7 @@ export class BoneScene implements SteeredView {
   }
 
   look(view: ViewName): void {
+    this.surgeon.taken();
     this.orbit.look(view);
     this.invalidate();
   }

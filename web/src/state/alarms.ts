@@ -23,7 +23,7 @@ const bounceTicks = 500;
 const onBoneN = 1;
 
 export interface Alarm {
-  kind: 'thrust' | 'depth' | 'vault' | 'heat';
+  kind: 'thrust' | 'depth' | 'heat';
   level: 'warn' | 'bad';
   /** The greatest of the last moments, N, mm or degrees Celsius. */
   value: number;
@@ -115,10 +115,10 @@ export class Alarms {
   private all(): readonly Alarm[] {
     const found: Alarm[] = [];
     const newtons = this.thrustN.value;
-    const moving = this.store.active.value || this.store.replaying.value;
+    const moving = this.store.moving.value;
     if (newtons !== null && moving)
       found.push({ kind: 'thrust', level: newtons > extremeThrustN ? 'bad' : 'warn', value: newtons });
-    const { telemetry, hello, metrics } = this.store;
+    const { telemetry, hello } = this.store;
     const pastMm = pastPlanMm(telemetry.value?.depthMm ?? NaN, hello.value?.plannedDepthMm ?? 0);
     // The bone stays gone: what is told is to stop and to withdraw, until that is done.
     if (pastMm !== null && moving && this.touching.value)
@@ -126,8 +126,6 @@ export class Alarms {
     const surfaceC = telemetry.value?.surfaceTemperatureC ?? null;
     const heat = heatLevel(surfaceC);
     if (surfaceC !== null && heat !== null && moving) found.push({ kind: 'heat', level: heat, value: surfaceC });
-    const breachMm = metrics.value?.vault_breach_mm ?? 0;
-    if (breachMm > 0) found.push({ kind: 'vault', level: 'bad', value: breachMm });
     return found.length === 0 ? none : found;
   }
 }

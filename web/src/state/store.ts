@@ -98,4 +98,8 @@ export class Store {
   /** Whether what is shown is the present state of the simulator. */
   readonly live = computed(() => this.upToDate.value && !this.replaying.value);
   readonly active = computed(() => this.sessionState.value === 'running' || this.sessionState.value === 'paused');
+  /** Whether values of the moment can change: what was measured last says nothing of a reamer that nobody holds. */
+  readonly moving = computed(() => this.active.value || this.replaying.value);
+  /** What is read of the reamer at this moment; nothing once nobody holds it. What it did to the bone stays in `reading`. */
+  readonly atReamer = computed(() => (this.moving.value ? this.reading.value.telemetry : null));
 }

@@ -109,6 +109,11 @@ export class Watcher {
     return id === null ? null : made;
   }
 
+  /** Makes and starts another session of the same kind as one that has ended, on intact bone, and watches it. */
+  repeat(sessionId: string): Promise<string | null> {
+    return this.begin(() => this.api.reset(sessionId));
+  }
+
   private async begin(make: () => Promise<Session>): Promise<string | null> {
     let id: string | null = null;
     await this.carryOut(async () => {

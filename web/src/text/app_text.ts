@@ -1,7 +1,8 @@
 /** Texts of the live page and of what all pages share; those of other pages are loaded with them. */
 import type { SessionState } from '../wire/messages';
 
-const markKinds: Record<string, string> = {
+/** By the kind of an event, as recordings name it. */
+export const markKinds: Readonly<Record<string, string>> = {
   annotation: 'Comment',
   resume: 'Resumed',
   reamer: 'Reamer changed',
@@ -11,12 +12,15 @@ const markKinds: Record<string, string> = {
   contact: 'Contact',
   withdrawn: 'Contact ended',
   excess: 'Thrust above 78 N',
-  device_lost: 'Connection lost',
-  device_back: 'Connection restored',
+  device_lost: 'Device disconnected',
+  device_back: 'Device connected',
   spindle_loaded: 'Spindle started on bone',
   spindle_stalled: 'Spindle stalled',
   paused: 'Paused',
   continued: 'Resumed',
+  failover: 'Computing device failed',
+  fault: 'Fault',
+  interrupted: 'Interrupted',
 };
 
 export const appText = {
@@ -133,10 +137,9 @@ export const appText = {
   momentOf: (position: string, duration: string) => `${position} of ${duration}`,
   speed: 'Speed',
   replayed: 'replay',
-  mark: (kind: string) => markKinds[kind] ?? kind.charAt(0).toUpperCase() + kind.slice(1),
+  mark: (kind: string) => markKinds[kind] ?? (kind.charAt(0).toUpperCase() + kind.slice(1)).replaceAll(/[_-]/g, ' '),
 
   linkConnecting: 'Connecting',
-  linkLive: 'Live',
   linkSilent: 'No updates',
   linkLost: 'Connection lost',
   linkRefused: 'Wrong version',
@@ -210,12 +213,6 @@ export const appText = {
   notLive: 'not live',
   none: '–',
 
-  results: 'Result',
-  meanThrust: 'Mean thrust',
-  peakThrust: 'Peak thrust',
-  corticalVolume: 'Cortical bone',
-  cancellousVolume: 'Cancellous bone',
-
   side: (side: string) => (side === 'left' ? 'Left shoulder' : side === 'right' ? 'Right shoulder' : 'Side unknown'),
 
   view: 'View',
@@ -248,7 +245,7 @@ export const appText = {
   guideShow: 'Help',
 
   practice: 'Practice',
-  spindleButton: (on: boolean) => (on ? 'Spindle on' : 'Spindle off'),
+  spindleButton: (on: boolean) => (on ? 'Stop spindle' : 'Start spindle'),
   irrigationButton: 'Irrigation',
   pauseButton: (paused: boolean) => (paused ? 'Resume' : 'Pause'),
   pushButton: 'Push',
@@ -291,9 +288,6 @@ export const appText = {
   noticeDepthText: 'Release pressure and withdraw.',
 
   health: 'Simulator health',
-  healthUnknown: 'unknown',
-  healthOnTime: 'OK',
-  healthLate: (percent: string) => `running slow, ${percent} % of steps late`,
   tickTimes: 'Step time p50 / p99',
   tickTail: 'Step time p99.9 / max',
   lateness: 'Delay p50 / p99',

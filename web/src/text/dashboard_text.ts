@@ -31,7 +31,6 @@ export const dashboardText = {
   alarmThrust: 'Thrust above 78 N',
   alarmDepth: (mm: string) => `${mm} mm past the plan`,
   alarmVault: (mm: string) => `Vault breach of ${mm} mm`,
-  alarmLate: (percent: string) => `Running slow: ${percent} of steps late`,
 
   recent: 'Recent sessions',
   noneRecent: 'No finished sessions yet. Practise or run the demo in the live view.',
@@ -42,12 +41,6 @@ export const dashboardText = {
   result: 'Result',
   points: 'Points',
   noPoints: 'not scored',
-  outcome: {
-    pass: 'Passed',
-    fail: 'Failed',
-    undecided: 'Not assessed',
-    none: 'Not scored',
-  },
   interrupted: 'Interrupted',
   faulted: 'Fault',
   replay: 'Replay',

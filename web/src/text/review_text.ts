@@ -142,7 +142,6 @@ export const reviewText = {
   points: (points: string) => `${points} of 100`,
   noPoints: 'No score',
   nextTime: 'Next time',
-  outcome: { pass: 'Passed', fail: 'Failed', undecided: 'Not assessed' },
   noOutcome: 'No result: this rubric has no pass mark.',
   rubric: (name: string, version: number, passPoints: number | undefined) =>
     `Rubric “${name}”, version ${version}${passPoints === undefined ? '' : `; pass mark ${passPoints}`}`,

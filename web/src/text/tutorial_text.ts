@@ -64,8 +64,8 @@ const todo = {
   }),
   aim: () => sentences(aim),
   spindle: (): ByInput => ({
-    mouse: `Press [${spindleOff}] below the picture to start the spindle, and [${irrigationButton}] beside it.`,
-    touch: `Tap [${spindleOff}] below the picture to start the spindle, and [${irrigationButton}] beside it.`,
+    mouse: `Press [${spindleOff}] below the picture, and [${irrigationButton}] beside it.`,
+    touch: `Tap [${spindleOff}] below the picture, and [${irrigationButton}] beside it.`,
     keys: 'Press [S] to start the spindle, and [I] to irrigate.',
     gamepad: `Press [A] to start the spindle, and click [${irrigationButton}] below the picture.`,
   }),

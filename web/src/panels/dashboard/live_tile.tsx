@@ -1,6 +1,7 @@
 import { dashboardText } from '../../text/dashboard_text';
 import type { Tile } from '../../state/dashboard/live_board';
 import { alarmsOf, type TileAlarm } from '../../state/dashboard/tile_alarms';
+import { healthText } from '../../text/health_text';
 import { appText } from '../../text/app_text';
 import { clock, duration, fixed } from '../../text/format';
 import { traineeLabel } from '../common/trainee_label';
@@ -119,7 +120,8 @@ function alarmText({ kind, value, message }: TileAlarm): string {
       return dashboardText.alarmDepth(fixed(value, 1));
     case 'thrust':
       return dashboardText.alarmThrust;
-    case 'late':
-      return dashboardText.alarmLate(fixed(value, 1));
+    case 'slow':
+    case 'lost':
+      return `${healthText.state[kind]}${message ? `. ${message}` : ''}`;
   }
 }

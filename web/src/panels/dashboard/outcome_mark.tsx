@@ -1,4 +1,4 @@
-import { dashboardText } from '../../text/dashboard_text';
+import { outcomeText } from '../../text/result_text';
 import type { Outcome } from '../../wire/rest_types';
 
 /** In words (`words`: other ones), with a sign that is told apart without colours. */
@@ -8,7 +8,7 @@ export function OutcomeMark({ outcome, words }: { outcome: Outcome; words?: stri
       <svg viewBox="-8 -8 16 16" width="14" height="14" aria-hidden="true">
         <OutcomeSign outcome={outcome} />
       </svg>
-      {words ?? dashboardText.outcome[outcome ?? 'none']}
+      {words ?? outcomeText[outcome ?? 'none']}
     </span>
   );
 }

@@ -32,14 +32,13 @@ export function AlarmList({ alarms }: { alarms: Alarms }) {
 const units: Record<Alarm['kind'], { unit: string; digits: number }> = {
   thrust: { unit: 'N', digits: 0 },
   depth: { unit: 'mm', digits: 1 },
-  vault: { unit: 'mm', digits: 1 },
   heat: { unit: '°C', digits: 0 },
 };
 
 function title({ kind, level }: Alarm): string {
   if (kind === 'thrust') return level === 'bad' ? liveText.thrustExtreme : liveText.thrustExcess;
   if (kind === 'heat') return level === 'bad' ? liveText.surfaceHot : liveText.surfaceWarm;
-  return kind === 'depth' ? liveText.depthPast : liveText.vaultBreached;
+  return liveText.depthPast;
 }
 
 function why({ kind, level }: Alarm): string {
@@ -49,5 +48,5 @@ function why({ kind, level }: Alarm): string {
       : liveText.thrustExcessWhy(fixed(excessThrustN, 0));
   if (kind === 'heat')
     return level === 'bad' ? liveText.surfaceHotWhy(fixed(hotC, 0)) : liveText.surfaceWarmWhy(fixed(warmC, 0));
-  return kind === 'depth' ? liveText.depthPastWhy : liveText.vaultWhy;
+  return liveText.depthPastWhy;
 }

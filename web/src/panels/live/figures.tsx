@@ -31,40 +31,28 @@ export function Figure({
 
 /** The numbers of the moment; a dash where none is known. */
 export function Figures({ store }: { store: Store }) {
-  const hello = store.hello.value;
   const t = store.reading.value.telemetry;
-  const engaged = t !== null && t.densityGCc > 0;
+  const now = store.atReamer.value;
+  const engaged = now !== null && now.densityGCc > 0;
   return (
     <dl class="figures">
       <Figure name={appText.removed} unit="mm³" id="removed-volume">
         {fixed(t?.removedVolumeMm3, 0)}
       </Figure>
       <Figure name={appText.hand} unit="N" id="hand-force">
-        {fixed(t?.handForceN, 2)}
+        {fixed(now?.handForceN, 2)}
       </Figure>
       <Figure name={appText.density} unit="g/cc">
-        {engaged ? fixed(t.densityGCc, 2) : appText.none}
+        {engaged ? fixed(now.densityGCc, 2) : appText.none}
       </Figure>
       <Figure name={appText.cortical} unit="%">
-        {engaged ? fixed(t.corticalShare * 100, 0) : appText.none}
+        {engaged ? fixed(now.corticalShare * 100, 0) : appText.none}
       </Figure>
-      <Spindle telemetry={t} />
-      <SurfaceTemperature celsius={t?.surfaceTemperatureC ?? null} />
+      <Spindle telemetry={now} />
+      <SurfaceTemperature celsius={now?.surfaceTemperatureC ?? null} />
       <Figure name={appText.time} unit="s" id="session-time">
         {fixed(t === null ? null : t.tick / 1000, 1)}
       </Figure>
-      <Figure name={appText.forceScale} unit=": 1">
-        {fixed(hello?.forceScale, 0)}
-      </Figure>
-      {!store.replaying.value && (
-        <>
-          <Figure name={appText.loop} unit="µs" id="tick-times">
-            {fixed(t?.tickMeanUs, 0)} / {fixed(t?.tickP99Us, 0)}
-          </Figure>
-          <Figure name={appText.missed}>{fixed(t?.ticksMissed, 0)}</Figure>
-        </>
-      )}
-      {t !== null && t.dropped > 0 && <Figure name={appText.lostSamples}>{fixed(t.dropped, 0)}</Figure>}
     </dl>
   );
 }
@@ -103,30 +91,5 @@ function SurfaceTemperature({ celsius }: { celsius: number | null }) {
       )}
       {fixed(celsius, 0)}
     </Figure>
-  );
-}
-
-/** Final figures of a session that has ended. */
-export function Results({ store }: { store: Store }) {
-  const metrics = store.metrics.value;
-  if (metrics === null) return null;
-  return (
-    <section class="results" aria-labelledby="results-title" data-testid="results">
-      <h2 id="results-title">{appText.results}</h2>
-      <dl class="figures">
-        <Figure name={appText.meanThrust} unit="N">
-          {fixed(metrics.axial_thrust_mean_n, 1)}
-        </Figure>
-        <Figure name={appText.peakThrust} unit="N">
-          {fixed(metrics.axial_thrust_peak_n, 1)}
-        </Figure>
-        <Figure name={appText.corticalVolume} unit="mm³">
-          {fixed(metrics.removed_volume_cortical_mm3, 0)}
-        </Figure>
-        <Figure name={appText.cancellousVolume} unit="mm³">
-          {fixed(metrics.removed_volume_cancellous_mm3, 0)}
-        </Figure>
-      </dl>
-    </section>
   );
 }

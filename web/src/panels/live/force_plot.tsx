@@ -38,7 +38,7 @@ const strengthSeconds = 0.1;
 
 /** What the hand's work came to, tick by tick, over the last seconds of session time: thrust, feed and vibration. */
 export function ForcePlots({ store }: { store: Store }) {
-  const known = store.reading.value.traceRevision >= 0;
+  const known = store.reading.value.traceRevision >= 0 && store.moving.value;
   const newest = known ? store.trace.newest('thrustN') : null;
   const shown = newest === null ? appText.none : fixed(newest, 1);
   return (
@@ -66,7 +66,7 @@ export function ForcePlots({ store }: { store: Store }) {
           store={store}
           kind={feed}
           title={appText.feed}
-          now={store.trace.newest('feedRateMmS')}
+          now={known ? store.trace.newest('feedRateMmS') : null}
           digits={2}
           unit="mm/s"
           label={appText.feedPlot}
@@ -76,7 +76,7 @@ export function ForcePlots({ store }: { store: Store }) {
           store={store}
           kind={vibration}
           title={appText.vibration}
-          now={store.trace.rms('vibrationG', strengthSeconds)}
+          now={known ? store.trace.rms('vibrationG', strengthSeconds) : null}
           digits={2}
           unit={appText.gRms}
           label={appText.vibrationPlot}

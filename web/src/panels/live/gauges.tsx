@@ -6,7 +6,6 @@ import type { LiveCase } from '../../state/live_case';
 import type { Store } from '../../state/store';
 import { anglesOfAxis, axisInBone, faceFrame, scapulaPoints } from '../../state/tool_angles';
 import { appText } from '../../text/app_text';
-import { DepthMeter } from './depth_meter';
 import { fixed } from '../../text/format';
 
 /** Off the plan by so much is still good, or still passes: Throckmorton 2015, Hagan 2023; 5 degrees by judgement. */
@@ -15,11 +14,11 @@ const passesDeg = 10;
 /** The scale goes this far to either side of the plan. */
 const reachDeg = 15;
 
-/** Where the reamer points and how deep it is, each against the plan. */
+/** Where the reamer points, against the plan. */
 export function Gauges({ store, liveCase }: { store: Store; liveCase: LiveCase }) {
   const hello = store.hello.value;
-  const telemetry = store.reading.value.telemetry;
-  if (hello === null) return <DepthMeter store={store} />;
+  const telemetry = store.atReamer.value;
+  if (hello === null) return null;
   const plan = new PlanFrame(hello);
   const frame = faceFrame(plan, scapulaPoints(hello, liveCase.landmarks.value));
   const planned = anglesOfAxis(plan.axis, frame);
@@ -46,7 +45,6 @@ export function Gauges({ store, liveCase }: { store: Store; liveCase: LiveCase }
         ends={[liveText.inferior, liveText.superior]}
       />
       {!named && <p class="soft gauge-note">{liveText.noLandmarks}</p>}
-      <DepthMeter store={store} />
     </section>
   );
 }

@@ -5,18 +5,35 @@ import { SiteNav, HeaderEnd } from '../common/site_nav';
 
 const linkStateText: Record<LinkState['kind'], string> = {
   connecting: appText.linkConnecting,
-  live: appText.linkLive,
+  live: appText.linkConnecting,
   nothing: appText.linkNothing,
   silent: appText.linkSilent,
   lost: appText.linkLost,
   refused: appText.linkRefused,
 };
 
-/** What is watched, and whether it is live. */
+/** In the colour of the link, and of the session while that is live. */
+function lookOf(store: Store): string {
+  const link = store.link.value.kind;
+  if (link !== 'live') return link;
+  if (store.replaying.value) return 'replay';
+  const state = store.sessionState.value;
+  return state === 'running' ? 'live' : state === 'paused' ? 'silent' : state === 'fault' ? 'lost' : 'rest';
+}
+
+/** What the session does; while nothing is heard of it, what the link does. */
+function badge(store: Store): string {
+  const link = store.link.value.kind;
+  if (link !== 'live') return linkStateText[link];
+  if (store.replaying.value) return appText.linkReplay;
+  const state = store.sessionState.value;
+  return state === null ? linkStateText.live : appText.state[state];
+}
+
+/** What is watched, and what becomes of it. */
 export function Header({ store }: { store: Store }) {
   const hello = store.hello.value;
   const link = store.link.value.kind;
-  const look = link === 'live' && store.replaying.value ? 'replay' : link;
   return (
     <header class="header">
       <h1 class="product">
@@ -30,9 +47,9 @@ export function Header({ store }: { store: Store }) {
         </p>
       )}
       <HeaderEnd />
-      <p class={`link link-${look}`} role="status" data-testid="link-state" data-link={link}>
+      <p class={`link link-${lookOf(store)}`} role="status" data-testid="link-state" data-link={link}>
         <span class="link-dot" aria-hidden="true" />
-        {look === 'replay' ? appText.linkReplay : linkStateText[link]}
+        {badge(store)}
       </p>
     </header>
   );

@@ -1,44 +1,72 @@
+import type { ReadonlySignal } from '@preact/signals';
+
+import { type Health, missedHere, pictureDelayMs } from '../../state/health';
+import type { Latency } from '../../state/latency';
 import type { PracticeStore } from '../../state/practice_store';
 import type { Store } from '../../state/store';
 import type { Session, Times } from '../../wire/rest_types';
 import { appText } from '../../text/app_text';
-import { Figure } from './figures';
 import { fixed } from '../../text/format';
+import { healthText } from '../../text/health_text';
+import { liveText } from '../../text/live_text';
+import { Figure } from './figures';
 
-/** A share of missed ticks above this is worth saying, percent. */
-export const lateAbovePercent = 0.1;
-
-/** Of the ticks of the watched session, or null while that is not known. */
-export function missedPercent(store: Store): number | null {
-  const details = store.details.value;
-  const session = details !== null && details.id === store.sessionId.value ? details : null;
-  const telemetry = store.reading.value.telemetry;
-  const missed = telemetry?.ticksMissed ?? session?.loop.missed ?? null;
-  const ticks = telemetry?.tick ?? session?.tick ?? 0;
-  return missed === null || ticks === 0 ? null : (missed / ticks) * 100;
+interface Parts {
+  store: Store;
+  practice: PracticeStore;
+  latency: Latency;
+  health: ReadonlySignal<Health | null>;
 }
 
-/** How well the haptic loop keeps its time and its device: one word, and the figures behind it. */
-export function HealthPanel({ store, practice }: { store: Store; practice: PracticeStore }) {
+/** How well simulation, link and picture keep their time: the state that everybody sees, and the figures behind it. */
+export function HealthPanel({ store, practice, latency, health }: Parts) {
   const details = store.details.value;
   const session = details !== null && details.id === store.sessionId.value ? details : null;
-  const percent = missedPercent(store);
-  const late = percent !== null && percent > lateAbovePercent;
-  const word =
-    percent === null ? appText.healthUnknown : late ? appText.healthLate(fixed(percent, 1)) : appText.healthOnTime;
+  const state = health.value?.state ?? null;
   return (
     <details class="sessions health" data-testid="health">
       <summary>
-        {appText.health} <span class={late ? 'health-late' : 'soft'}>{word}</span>
+        {appText.health}{' '}
+        {state !== null && <span class={state === 'ok' ? 'soft' : 'health-late'}>{healthText.state[state]}</span>}
       </summary>
       <dl class="figures">
+        <Picture {...{ store, practice, latency }} />
         <Loop session={session} />
-        <Figure name={appText.missedShare} unit="%" id="missed-share">
-          {fixed(percent, 2)}
-        </Figure>
+        <Ticks store={store} />
         <Device session={session} practice={practice} />
       </dl>
     </details>
+  );
+}
+
+function Picture({ store, practice, latency }: Omit<Parts, 'health'>) {
+  const steering = practice.steering.value;
+  return (
+    <>
+      <Figure name={`${steering ? liveText.handDelay : liveText.drawDelay} p95`} unit="ms" id="latency">
+        {fixed(pictureDelayMs(store, practice, latency), 0)}
+      </Figure>
+      <Figure name={appText.forceScale} unit=": 1" id="force-scale">
+        {fixed(store.hello.value?.forceScale, 0)}
+      </Figure>
+    </>
+  );
+}
+
+/** As the stream tells them, tick by tick. */
+function Ticks({ store }: { store: Store }) {
+  const t = store.reading.value.telemetry;
+  return (
+    <>
+      <Figure name={appText.loop} unit="µs" id="tick-times">
+        {fixed(t?.tickMeanUs, 0)} / {fixed(t?.tickP99Us, 0)}
+      </Figure>
+      <Figure name={appText.missed}>{fixed(t?.ticksMissed, 0)}</Figure>
+      <Figure name={appText.missedShare} unit="%" id="missed-share">
+        {fixed(missedHere(store), 2)}
+      </Figure>
+      {t !== null && t.dropped > 0 && <Figure name={appText.lostSamples}>{fixed(t.dropped, 0)}</Figure>}
+    </>
   );
 }
 

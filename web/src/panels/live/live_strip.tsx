@@ -1,67 +1,28 @@
 import '../../styles/live_strip.css';
 
-import type { Signal } from '@preact/signals';
+import type { ReadonlySignal, Signal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
 
+import { healthText } from '../../text/health_text';
 import { liveText } from '../../text/live_text';
-import type { Latency } from '../../state/latency';
-import type { PracticeStore } from '../../state/practice_store';
+import type { Health } from '../../state/health';
 import { addressOfRoute } from '../../state/route';
 import type { Sound } from '../../state/sound';
-import type { Store } from '../../state/store';
-import { appText } from '../../text/app_text';
-import { fixed } from '../../text/format';
-import { lateAbovePercent, missedPercent } from './health_panel';
 import { useLiveKeys } from '../picture/live_keys';
 import { SoundButton } from '../picture/sound_button';
 
-/** What the picture should take at most, ms. */
-const latencyGoalMs = 100;
-
 interface Parts {
-  store: Store;
-  practice: PracticeStore;
-  latency: Latency;
+  health: ReadonlySignal<Health | null>;
   sound: Sound;
   slicesOpen: Signal<boolean>;
 }
 
-/** Always in sight: how late the picture is, whether the loop keeps its time, and the scale of the force. */
-export function LiveStrip({ store, practice, latency, sound, slicesOpen }: Parts) {
+/** Always in sight: whether the simulation keeps up, the sound, and other pictures of the same. */
+export function LiveStrip({ health, sound, slicesOpen }: Parts) {
   useLiveKeys(useMemo(() => ({ t: () => (slicesOpen.value = !slicesOpen.value) }), [slicesOpen]));
-  const live = store.live.value;
-  const steering = practice.steering.value;
-  const drawingMs = latency.drawingMs.value;
-  const watchingMs = drawingMs === null ? null : drawingMs + store.reading.value.behindMs;
-  const delayMs = !live ? null : steering ? latency.handMs.value : watchingMs;
-  const slow = delayMs !== null && delayMs > latencyGoalMs;
-  const percent = live ? missedPercent(store) : null;
-  const late = percent !== null && percent > lateAbovePercent;
   return (
-    <div class="live-strip" role="group" aria-label={liveText.strip} data-testid="live-strip">
-      {!store.replaying.value && (
-        <p class={slow ? 'chip chip-warn' : 'chip'} title={steering ? liveText.handDelayHint : liveText.drawDelayHint}>
-          {slow && <span aria-hidden="true">▲ </span>}
-          {steering ? liveText.handDelay : liveText.drawDelay}{' '}
-          <strong data-testid="latency">{fixed(delayMs, 0)}</strong> ms <span class="soft">p95</span>
-        </p>
-      )}
-      {!store.replaying.value && (
-        <p class={late ? 'chip chip-warn' : 'chip'} data-testid="loop-health">
-          {late && <span aria-hidden="true">▲ </span>}
-          {liveText.loop}{' '}
-          <strong>
-            {percent === null
-              ? appText.healthUnknown
-              : late
-                ? appText.healthLate(fixed(percent, 1))
-                : appText.healthOnTime}
-          </strong>
-        </p>
-      )}
-      <p class="chip" title={liveText.forceScaleHint} data-testid="force-scale">
-        {liveText.force} <strong>{fixed(store.hello.value?.forceScale, 0)} : 1</strong>
-      </p>
+    <div class="live-strip" role="group" aria-label={healthText.strip} data-testid="live-strip">
+      <HealthDot health={health} />
       <SoundButton sound={sound} />
       <button
         type="button"
@@ -83,5 +44,25 @@ export function LiveStrip({ store, practice, latency, sound, slicesOpen }: Parts
         {liveText.traineeView}
       </a>
     </div>
+  );
+}
+
+/** One state, and a sentence of advice where something is wrong. */
+function HealthDot({ health }: Pick<Parts, 'health'>) {
+  const now = health.value;
+  return (
+    <p class={`chip health-dot health-${now?.state ?? 'none'}`} role="status" data-testid="health-dot">
+      {now !== null && (
+        <>
+          <span class="health-sign" aria-hidden="true">
+            {{ ok: '●', slow: '▲', lost: '⬣' }[now.state]}
+          </span>
+          <span>
+            <strong>{healthText.state[now.state]}</strong>
+            {now.cause !== null && <span class="health-advice">{healthText.advice[now.cause]}</span>}
+          </span>
+        </>
+      )}
+    </p>
   );
 }

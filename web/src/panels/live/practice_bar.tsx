@@ -52,20 +52,20 @@ interface HandButtonParts {
   onDone: (event: MouseEvent) => void;
 }
 
-/** A switch of the hand's: lit while it is on. */
-function HandButton({
-  id,
-  on,
-  label,
-  onPress,
-}: {
+interface SwitchParts {
   id: string;
   on: boolean;
   label: string;
+  /** The label says what a press does, and changes with it: then nothing else says whether it is on. */
+  command?: boolean;
   onPress: (event: MouseEvent) => void;
-}) {
+}
+
+/** A switch of the hand's: lit while it is on. */
+function HandButton({ id, on, label, command, onPress }: SwitchParts) {
+  const pressed = command === true ? undefined : on;
   return (
-    <button type="button" class="hand-button" data-testid={id} aria-pressed={on} onClick={onPress}>
+    <button type="button" class="hand-button" data-testid={id} data-on={on} aria-pressed={pressed} onClick={onPress}>
       {label}
     </button>
   );
@@ -85,6 +85,7 @@ export function DriveButtons({ hand, onDone }: HandButtonParts) {
         id="spindle"
         on={spindleOn}
         label={appText.spindleButton(spindleOn)}
+        command
         onPress={press(() => hand.toggleSpindle())}
       />
       <HandButton
@@ -103,7 +104,7 @@ export function PauseButton({ hand, onDone }: HandButtonParts) {
     hand.togglePause();
     onDone(event);
   };
-  return <HandButton id="pause" on={paused} label={appText.pauseButton(paused)} onPress={press} />;
+  return <HandButton id="pause" on={paused} label={appText.pauseButton(paused)} command onPress={press} />;
 }
 
 /** After a click with the mouse the keys go to the picture again, where space pushes; after one with a key they stay. */

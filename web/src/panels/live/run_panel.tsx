@@ -3,10 +3,13 @@ import type { Signal } from '@preact/signals';
 import { liveText } from '../../text/live_text';
 import type { Practice } from '../../state/practice';
 import type { PracticeStore } from '../../state/practice_store';
+import type { ResultWatch } from '../../state/result_watch';
 import type { Store } from '../../state/store';
 import type { Tutorial } from '../../state/tutorial_guide';
 import type { Watcher } from '../../state/watcher';
 import { appText } from '../../text/app_text';
+import { resultText } from '../../text/result_text';
+import { Button } from '../common/button';
 import { SessionControls } from './session_controls';
 import { SessionLabels } from './session_labels';
 import { StartButtons } from './start_buttons';
@@ -20,10 +23,11 @@ interface Parts {
   tutorial: Tutorial;
   /** Whether what is made here is made for theatre. */
   theatreWanted: Signal<boolean>;
+  result: ResultWatch;
 }
 
 /** The things to do, and what the session is doing. */
-export function RunPanel({ store, watcher, practice, practiceStore, tutorial, theatreWanted }: Parts) {
+export function RunPanel({ store, watcher, practice, practiceStore, tutorial, theatreWanted, result }: Parts) {
   const may = useIdentity().may.value;
   const reachable = store.link.value.kind === 'live' || store.link.value.kind === 'nothing';
   const active = reachable && store.active.value;
@@ -59,6 +63,7 @@ export function RunPanel({ store, watcher, practice, practiceStore, tutorial, th
       )}
       {may.ream && !active && <TheatreChoice wanted={theatreWanted} />}
       {may.ream && <SessionControls {...{ store, watcher, practice, practiceStore }} />}
+      <ShowResult result={result} />
       <StateLine store={store} practiceStore={practiceStore} reachable={reachable} />
       <SessionLabels store={store} />
     </section>
@@ -80,8 +85,24 @@ function TheatreChoice({ wanted }: { wanted: Signal<boolean> }) {
   );
 }
 
+/** The way back to a card that was closed, or to that of a session that ended before the page was opened. */
+function ShowResult({ result }: { result: ResultWatch }) {
+  if (result.ended.value === null || result.shown.value !== null) return null;
+  return (
+    <div class="session-controls">
+      <Button testId="show-result" onClick={() => result.show()}>
+        {resultText.show}
+      </Button>
+    </div>
+  );
+}
+
 /** For pages that watch while another one steers. */
-function TakeOver({ store, practice, practiceStore }: Omit<Parts, 'watcher' | 'tutorial' | 'theatreWanted'>) {
+function TakeOver({
+  store,
+  practice,
+  practiceStore,
+}: Omit<Parts, 'watcher' | 'tutorial' | 'theatreWanted' | 'result'>) {
   const id = store.sessionId.value;
   const details = store.details.value;
   if (id === null || details?.id !== id || details.device.name !== 'browser' || practiceStore.sessionId.value === id)

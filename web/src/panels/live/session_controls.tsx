@@ -2,6 +2,7 @@ import { useSignal } from '@preact/signals';
 
 import type { Practice } from '../../state/practice';
 import type { PracticeStore } from '../../state/practice_store';
+import { sessionChoices } from '../../state/session_choices';
 import type { Store } from '../../state/store';
 import type { Watcher } from '../../state/watcher';
 import { appText } from '../../text/app_text';
@@ -21,21 +22,24 @@ interface Parts {
 
 /** Pausing the watched session, and starting again on intact bone. */
 export function SessionControls({ store, watcher, practice, practiceStore }: Parts) {
-  const confirming = useSignal(false);
-  const button = useFocusAfter<HTMLButtonElement>(confirming.value);
+  /** The session that is perhaps to be started again. */
+  const asked = useSignal<string | null>(null);
+  const confirming = asked.value !== null && asked.value === store.sessionId.value && store.active.value;
+  const button = useFocusAfter<HTMLButtonElement>(confirming);
   const shared = useSignal<string | null>(null);
   const identity = useIdentity();
   const details = store.details.value;
   if (details === null || details.id !== store.sessionId.value || store.link.value.kind !== 'live') return null;
   const busy = store.busy.value;
-  const held = details.held;
+  const { held } = details;
+  const steered = practiceStore.sessionId.value === details.id;
+  const { pause, startAgain } = sessionChoices({ state: store.sessionState.value, held, steered });
   const reset = async () => {
-    confirming.value = false;
-    const steered = practiceStore.sessionId.value === details.id;
+    asked.value = null;
     const next = await watcher.reset();
     if (next !== null && steered) practice.steer(next);
   };
-  if (confirming.value)
+  if (confirming)
     return (
       <p class="session-controls confirm" role="alert">
         {appText.resetConfirm}
@@ -49,7 +53,7 @@ export function SessionControls({ store, watcher, practice, practiceStore }: Par
         >
           {appText.resetYes}
         </button>
-        <Button onClick={() => (confirming.value = false)}>{appText.no}</Button>
+        <Button onClick={() => (asked.value = null)}>{appText.no}</Button>
       </p>
     );
   const mayShare = identity.may.value.teach && identity.hasUsers.value;
@@ -57,12 +61,12 @@ export function SessionControls({ store, watcher, practice, practiceStore }: Par
     return sharing.show(({ SharePanel }) => <SharePanel session={details.id} onClose={() => (shared.value = null)} />);
   return (
     <div class="session-controls">
-      {(store.sessionState.value === 'running' || held) && (
-        <Button testId="pause-session" disabled={busy} onClick={() => void watcher.pause(!held)}>
-          {held ? appText.goOn : appText.pauseSession}
+      {pause !== null && (
+        <Button testId="pause-session" disabled={busy} onClick={() => void watcher.pause(pause === 'pause')}>
+          {pause === 'resume' ? appText.goOn : appText.pauseSession}
         </Button>
       )}
-      {store.sessionState.value !== 'created' && (
+      {startAgain && (
         <button
           type="button"
           class="plain-button"
@@ -70,7 +74,7 @@ export function SessionControls({ store, watcher, practice, practiceStore }: Par
           title={appText.resetHint}
           ref={button}
           disabled={busy}
-          onClick={() => (confirming.value = true)}
+          onClick={() => (asked.value = details.id)}
         >
           {appText.resetSession}
         </button>

@@ -1,5 +1,6 @@
 import type { Signal } from '@preact/signals';
 
+import { beginNext, goesOnInStudy } from '../../state/next_session';
 import type { Practice } from '../../state/practice';
 import type { PracticeStore } from '../../state/practice_store';
 import { hasReamed } from '../../state/newcomer';
@@ -30,14 +31,9 @@ export function StartButtons({ store, watcher, practice, practiceStore, tutorial
   const identity = useIdentity();
   const may = identity.may.value;
   const last = store.watched.value;
-  const { study = null, participant = null } = last ?? {};
-  // Staff who only watched somebody train do not go on in that person's place.
-  const own = !may.teach || practiceStore.lastSessionId.value === last?.id;
-  const inStudy = study !== null && participant !== null && may.takePart && own && last?.state !== 'created';
+  const inStudy = goesOnInStudy(last, { may, steeredLast: practiceStore.lastSessionId.value });
   const attemptAgain = async () => {
-    if (last === null || study === null) return;
-    const session = await watcher.train(study, may.teach ? participant : null, last.case);
-    if (session?.device.name === 'browser') practice.steer(session.id);
+    if (last !== null) await beginNext('attempt', last, { watcher, practice, may });
   };
   const practise = async () => {
     const sessionId = await watcher.practise('demo', theatreWanted.value);

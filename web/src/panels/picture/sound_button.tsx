@@ -14,12 +14,12 @@ export function SoundButton({ sound }: { sound: Sound }) {
       type="button"
       class={on ? 'strip-button strip-on' : 'strip-button'}
       data-testid="sound"
-      aria-pressed={on}
+      data-on={on}
       aria-keyshortcuts="M"
       title={sound.problem.value ?? liveText.key(liveText.soundHint, 'M')}
       onClick={toggle}
     >
-      {sound.problem.value !== null ? liveText.noSoundShort : on ? liveText.soundOn : liveText.soundOff}
+      {sound.problem.value !== null ? liveText.noSoundShort : liveText.soundButton(on)}
     </button>
   );
 }

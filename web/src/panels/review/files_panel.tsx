@@ -5,6 +5,7 @@ import type { ReviewSession } from '../../state/review/review_session';
 import { messageOf } from '../../wire/rest';
 import { exportFormats, type ExportFormat, type ReviewApi } from '../../wire/review_api';
 import { Message } from '../common/fields';
+import { saveExport } from '../common/save_export';
 import { percent, sentence } from '../../text/format';
 import { lazyPart } from '../common/lazy_part';
 import { useIdentity } from '../common/site_nav';
@@ -67,11 +68,7 @@ function ExportButton({ session, review, format, absent }: ExportParts) {
     share.value = 0;
     problem.value = null;
     try {
-      const url = await review.exported(session.id, format, (now) => (share.value = now));
-      const link = document.createElement('a');
-      link.href = url;
-      link.download = '';
-      link.click();
+      await saveExport(review, session.id, format, (now) => (share.value = now));
     } catch (error) {
       problem.value = reviewText.exportFailed(label, sentence(messageOf(error)));
     } finally {

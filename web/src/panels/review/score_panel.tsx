@@ -3,6 +3,7 @@ import { useMemo } from 'preact/hooks';
 
 import type { Pane } from './review_workspace';
 import { limits, limitsTitle } from '../../text/limits_text';
+import { outcomeText } from '../../text/result_text';
 import { reviewText } from '../../text/review_text';
 import { groupedMetrics, number, valueText } from '../../state/review/score_text';
 import type { Score, ScoredMetric, Verdict } from '../../wire/rest_types';
@@ -70,7 +71,7 @@ function Mark({ score, problem, place, several }: MarkParts) {
         {several && <span class="pane-number">{place + 1}</span>}
         <span class="visually-hidden">{reviewText.overall}: </span>
         <strong>{points === null ? reviewText.noPoints : reviewText.points(fixed(points, 1))}</strong>
-        <OutcomeMark outcome={outcome} words={outcome === null ? reviewText.noOutcome : reviewText.outcome[outcome]} />
+        <OutcomeMark outcome={outcome} words={outcome === null ? reviewText.noOutcome : outcomeText[outcome]} />
         {theatre && (
           <span class="role-chip" title={reviewText.theatreHint}>
             {reviewText.theatre}

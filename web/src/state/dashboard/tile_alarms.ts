@@ -1,13 +1,11 @@
 import type { Session, Metrics } from '../../wire/rest_types';
 import { farPastMm, pastPlanMm } from '../alarms';
-
-/** A share of missed ticks above this is worth saying, percent. */
-const lateAbovePercent = 0.1;
+import { type HealthState, isLate, missedPercent } from '../health';
 
 export interface TileAlarm {
-  kind: 'fault' | 'vault' | 'depth' | 'thrust' | 'late';
+  kind: 'fault' | 'vault' | 'depth' | 'thrust' | Exclude<HealthState, 'ok'>;
   level: 'warn' | 'bad';
-  /** mm or percent; null where there is no figure. */
+  /** mm; null where there is no figure. */
   value: number | null;
   /** The server's words, of a fault. */
   message: string | null;
@@ -30,15 +28,16 @@ export function alarmsOf({ session, soFar, before, plannedDepthMm }: Reading): T
     value: number | null,
     message: string | null = null,
   ) => found.push({ kind, level, value, message });
-  if (session.fault !== null && session.fault !== '') add('fault', 'bad', null, session.fault);
+  const { fault } = session;
+  // Of a device that is lost the server's words say no more than that.
+  if (session.device.state === 'lost') add('lost', 'bad', null, fault);
+  else if (fault !== null && fault !== '') add('fault', 'bad', null, fault);
   const breachMm = soFar?.vault_breach_mm ?? 0;
   if (breachMm > 0) add('vault', 'bad', breachMm);
   const pastMm = pastPlanMm(soFar?.reaming_depth_mm ?? NaN, plannedDepthMm ?? 0);
   if (pastMm !== null) add('depth', pastMm > farPastMm ? 'bad' : 'warn', pastMm);
   const grown = (soFar?.axial_thrust_excess_n_s ?? 0) - (before?.axial_thrust_excess_n_s ?? Infinity);
   if (grown > 0) add('thrust', 'bad', null);
-  const missed = session.loop.missed;
-  const percent = session.tick === 0 ? 0 : (missed / session.tick) * 100;
-  if (percent > lateAbovePercent) add('late', 'warn', percent);
+  if (isLate(missedPercent(session.loop.missed, session.tick))) add('slow', 'warn', null);
   return found.sort((a, b) => Number(b.level === 'bad') - Number(a.level === 'bad'));
 }

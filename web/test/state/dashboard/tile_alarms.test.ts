@@ -34,6 +34,14 @@ describe('alarmsOf', () => {
         session: { ...session, loop: { ...loop, missed: 50 }, fault: 'the device is lost' },
         soFar: { ...normalMetrics, vault_breach_mm: 0.4 },
       }),
-    ).toEqual(['fault bad', 'vault bad', 'late warn']);
+    ).toEqual(['fault bad', 'vault bad', 'slow warn']);
+  });
+
+  it('tells a lost device once, in the words of the live page', () => {
+    const device = { ...session.device, state: 'lost' as const };
+    const fault = 'The device stopped answering.';
+    expect(
+      alarmsOf({ session: { ...session, device, fault }, soFar: null, before: null, plannedDepthMm: null }),
+    ).toEqual([{ kind: 'lost', level: 'bad', value: null, message: fault }]);
   });
 });
