@@ -12,7 +12,9 @@ const aimedWithinMm = 1.5;
 /** A thrust that a push and no touch makes, N. */
 const pressedN = 8;
 
-const shown = signal(localStorage.getItem(rememberedKey) !== 'hidden');
+/** On a phone it would cover the picture: there it comes when it is asked for. */
+const hasRoom = !window.matchMedia('(max-width: 640px)').matches;
+const shown = signal(hasRoom && localStorage.getItem(rememberedKey) !== 'hidden');
 
 function show(visible: boolean): void {
   shown.value = visible;

@@ -147,7 +147,8 @@ function Advice({ advice }: Pick<Score, 'advice'>) {
 
 function Figures({ store }: Pick<Parts, 'store'>) {
   const metrics = store.metrics.value;
-  if (metrics === null) return null;
+  // Without contact all of it is nothing.
+  if (metrics === null || metrics.removed_volume_mm3 === 0) return null;
   return (
     <dl class="figures" aria-label={resultText.figures} data-testid="results">
       <Figure name={resultText.meanThrust} unit="N">
