@@ -12,8 +12,8 @@ using score::Outcome;
 
 std::string verdict_of(const std::optional<Outcome>& outcome) {
   if (!outcome) return "Not judged";
-  if (*outcome == Outcome::undecided) return "Not decided";
-  return *outcome == Outcome::pass ? "Passed" : "Not passed";
+  if (*outcome == Outcome::undecided) return "Not assessed";
+  return *outcome == Outcome::pass ? "Passed" : "Failed";
 }
 
 /// Points that rest on little say so.

@@ -29,7 +29,7 @@ test('a session that was reamed ends with its points, advice and the ways on', a
   await page.getByTestId('stop').click();
   await expect(card(page)).toBeFocused();
   await expect(page.getByRole('region', { name: 'Session ended' })).toBeVisible();
-  await expect(page.getByTestId('result-mark')).toHaveText(/^(Passed|Failed|Not decided).*of 100 points$/);
+  await expect(page.getByTestId('result-mark')).toHaveText(/^(Passed|Failed|Not assessed).*of 100 points$/);
   await expect(card(page)).toContainText('Pass mark: 70 points');
   await expect(page.getByTestId('result-advice').locator('li').first()).toBeVisible();
   expect(await page.getByTestId('result-advice').locator('li').count()).toBeLessThanOrEqual(3);

@@ -81,9 +81,7 @@ function main(root: HTMLElement): void {
   const latency = measureLatency(store, practiceStore, scene);
   publishDebugReadout({ store, practice: practiceStore, scene, sound, latency });
   const view = new ViewSettings();
-  scene.onInteraction = () => {
-    if (view.camera.peek() !== 'own') view.change({ camera: 'own' });
-  };
+  keepOwnCamera(scene, view);
   const inTheatre = theatreHere(store, practiceStore, route);
   effect(() => void (view.theatre.value = inTheatre.value));
   effect(() => scene.setView(view.shown.value, view.theatre.value));
@@ -125,6 +123,13 @@ function main(root: HTMLElement): void {
   beginWithOverview(identity, route);
   void identity.find(linkSecret);
   watchWhenKnown(identity, route, () => goOnSteering(api, store, practice), { watcher, practice, practiceStore });
+}
+
+/** A camera that a person has moved is their own. */
+function keepOwnCamera(scene: BoneScene, view: ViewSettings): void {
+  scene.onInteraction = () => {
+    if (view.camera.peek() !== 'own') view.change({ camera: 'own' });
+  };
 }
 
 /** Where the reamer and the bone are, and what the reamer does. */

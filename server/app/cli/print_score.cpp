@@ -19,8 +19,8 @@ constexpr int name_width = 30, value_width = 14;
 
 std::string outcome_in_words(const json& outcome) {
   if (outcome.is_null()) return "not judged";
-  if (outcome == "undecided") return "not decided";
-  return outcome == "pass" ? "passed" : "not passed";
+  if (outcome == "undecided") return "not assessed";
+  return outcome == "pass" ? "passed" : "failed";
 }
 
 std::string points_in_words(const json& points) {

@@ -78,7 +78,7 @@ TEST_F(SessionReport, OfASessionThatNeverTouchedBoneSaysSo) {
   succeed({"export", "run", "--out", "report.pdf"});
   const std::string html = text_of("report.html");
   expect_sound(html);
-  EXPECT_NE(html.find("Not decided"), std::string::npos);
+  EXPECT_NE(html.find("Not assessed"), std::string::npos);
   EXPECT_NE(html.find("no bone was removed"), std::string::npos);
   EXPECT_NE(html.find("Nothing was cut."), std::string::npos);
   const json told = answer({"score", "run"});

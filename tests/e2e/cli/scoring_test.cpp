@@ -82,7 +82,7 @@ TEST_F(Scoring, OfWhatNeverTouchedBone) {
        {"version_achieved_deg", "seating_percent", "medialization_mm", "vault_breach_mm"})
     EXPECT_EQ(reason(told, metric), "no bone was removed") << metric;
   EXPECT_TRUE(told.at("metrics").at("version_planned_deg").is_number());
-  EXPECT_NE(text_of("report.html").find("Not decided"), std::string::npos);
+  EXPECT_NE(text_of("report.html").find("Not assessed"), std::string::npos);
 }
 
 TEST_F(Scoring, OfTheFirstMoments) {

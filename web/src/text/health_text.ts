@@ -10,7 +10,7 @@ export const healthText = {
     network: 'The network is slow. Use a cable if you can.',
     picture: 'This computer draws slowly. Close other programs.',
     stream: 'Nothing arrives from the server. Check the network.',
-    hand: 'The server does not answer your hand. Check the network.',
+    hand: 'The server does not respond to your hand. Check the network.',
     version: 'Page and server do not match. Reload the page.',
   },
   strip: 'Simulation, sound and CT',

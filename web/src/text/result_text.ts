@@ -4,8 +4,8 @@ import type { Outcome } from '../wire/rest_types';
 export const outcomeText: Readonly<Record<NonNullable<Outcome> | 'none', string>> = {
   pass: 'Passed',
   fail: 'Failed',
-  undecided: 'Not decided',
-  none: 'Not judged',
+  undecided: 'Not assessed',
+  none: 'Not scored',
 };
 
 export const resultText = {
@@ -27,7 +27,7 @@ export const resultText = {
   practiseHint: 'A new session on this case',
   report: 'Report (PDF)',
   making: (percent: string) => `Report: ${percent} %`,
-  reportFailed: (reason: string) => `The report could not be made. ${reason}`,
+  reportFailed: (reason: string) => `The report could not be prepared. ${reason}`,
   close: 'Close the result',
   show: 'Show result',
 };
