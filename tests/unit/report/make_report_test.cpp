@@ -83,7 +83,7 @@ TEST(MakeReport, ABreachDecidesAndIsMarked) {
   m.metrics["vault_breach_mm"] = 0.4;
   m.score = score::apply_rubric(m.rubric, m.metrics);
   const Report report = make_report(m);
-  EXPECT_EQ(report.verdict, "Not passed");
+  EXPECT_EQ(report.verdict, "Failed");
   EXPECT_EQ(line(report, "Vault breach").mark, Mark::fail);
   EXPECT_NE(report.reasons.front().find("Vault breach failed; it is a critical criterion"), std::string::npos);
 }
@@ -101,7 +101,7 @@ TEST(MakeReport, LimitsAreThoseOfTheRubric) {
 
 TEST(MakeReport, WhatIsNotSaidIsSaidToBe) {
   const Report report = make_report(test::empty_material());
-  EXPECT_EQ(report.verdict, "Not decided");
+  EXPECT_EQ(report.verdict, "Not assessed");
   EXPECT_EQ(report.points, "");
   for (const MetricTable& table : report.tables)
     for (const MetricLine& each : table.lines) {

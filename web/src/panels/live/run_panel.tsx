@@ -9,6 +9,7 @@ import type { Tutorial } from '../../state/tutorial_guide';
 import type { Watcher } from '../../state/watcher';
 import { appText } from '../../text/app_text';
 import { resultText } from '../../text/result_text';
+import { isPageLost, sessionChoices } from '../../state/session_choices';
 import { Button } from '../common/button';
 import { SessionControls } from './session_controls';
 import { SessionLabels } from './session_labels';
@@ -33,21 +34,28 @@ export function RunPanel({ store, watcher, practice, practiceStore, tutorial, th
   const active = reachable && store.active.value;
   const idle = reachable && !active && !store.busy.value;
   const running = practiceStore.sessionId.value === null ? appText.running : appText.practising;
+  const left = active && isLeft(store, practiceStore);
   return (
     <section class="run" aria-label={appText.runDemo}>
       {may.ream && (
         <div class="run-buttons">
           {!active && <StartButtons {...{ store, watcher, practice, practiceStore, tutorial, idle, theatreWanted }} />}
-          <button
-            type="button"
-            class={active ? 'run-button' : 'run-button run-second'}
-            data-testid="run-demo"
-            disabled={!idle}
-            onClick={() => void watcher.runDemo()}
-          >
-            {store.busy.value ? appText.starting : active ? running : appText.runDemo}
-          </button>
-          {active && <TakeOver store={store} practice={practice} practiceStore={practiceStore} />}
+          {left ? (
+            <p class="session-left" data-testid="session-left" role="status">
+              {appText.sessionLeft}
+            </p>
+          ) : (
+            <button
+              type="button"
+              class={active ? 'run-button' : 'run-button run-second'}
+              data-testid="run-demo"
+              disabled={!idle}
+              onClick={() => void watcher.runDemo()}
+            >
+              {store.busy.value ? appText.starting : active ? running : appText.runDemo}
+            </button>
+          )}
+          {active && <TakeOver left={left} store={store} practice={practice} practiceStore={practiceStore} />}
           {active && (
             <button
               type="button"
@@ -56,7 +64,7 @@ export function RunPanel({ store, watcher, practice, practiceStore, tutorial, th
               disabled={store.busy.value}
               onClick={() => void watcher.stop()}
             >
-              {appText.stop}
+              {left ? appText.endLeft : appText.stop}
             </button>
           )}
         </div>
@@ -97,12 +105,21 @@ function ShowResult({ result }: { result: ResultWatch }) {
   );
 }
 
-/** For pages that watch while another one steers. */
+function isLeft(store: Store, practiceStore: PracticeStore): boolean {
+  const details = store.details.value;
+  if (details === null || details.id !== store.sessionId.value) return false;
+  const steered = practiceStore.sessionId.value === details.id;
+  const { held } = details;
+  return sessionChoices({ state: store.sessionState.value, held, steered, pageLost: isPageLost(details) }).left;
+}
+
+/** For pages that watch while another one steers, or did until it was closed. */
 function TakeOver({
   store,
   practice,
   practiceStore,
-}: Omit<Parts, 'watcher' | 'tutorial' | 'theatreWanted' | 'result'>) {
+  left,
+}: Pick<Parts, 'store' | 'practice' | 'practiceStore'> & { left: boolean }) {
   const id = store.sessionId.value;
   const details = store.details.value;
   if (id === null || details?.id !== id || details.device.name !== 'browser' || practiceStore.sessionId.value === id)
@@ -112,10 +129,10 @@ function TakeOver({
       type="button"
       class="stop-button take-over"
       data-testid="take-over"
-      title={appText.takeOverHint}
+      title={left ? appText.continueLeftHint : appText.takeOverHint}
       onClick={() => practice.steer(id)}
     >
-      {appText.takeOver}
+      {left ? appText.continueLeft : appText.takeOver}
     </button>
   );
 }

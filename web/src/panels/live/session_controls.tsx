@@ -2,7 +2,7 @@ import { useSignal } from '@preact/signals';
 
 import type { Practice } from '../../state/practice';
 import type { PracticeStore } from '../../state/practice_store';
-import { sessionChoices } from '../../state/session_choices';
+import { isPageLost, sessionChoices } from '../../state/session_choices';
 import type { Store } from '../../state/store';
 import type { Watcher } from '../../state/watcher';
 import { appText } from '../../text/app_text';
@@ -33,7 +33,8 @@ export function SessionControls({ store, watcher, practice, practiceStore }: Par
   const busy = store.busy.value;
   const { held } = details;
   const steered = practiceStore.sessionId.value === details.id;
-  const { pause, startAgain } = sessionChoices({ state: store.sessionState.value, held, steered });
+  const pageLost = isPageLost(details);
+  const { pause, startAgain } = sessionChoices({ state: store.sessionState.value, held, steered, pageLost });
   const reset = async () => {
     asked.value = null;
     const next = await watcher.reset();
