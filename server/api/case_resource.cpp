@@ -43,8 +43,7 @@ net::Response list_cases(const Services& services, const net::Request& request) 
 
 net::Response get_case(const Services& services, const net::Request& request) {
   const std::string& id = id_of(request);
-  if (!is_case(services.cases_folder, id))
-    throw Error(ErrorKind::not_found, "no case '" + id + "'");
+  if (!is_case(services.cases_folder, id)) throw Error(ErrorKind::not_found, "no case '" + id + "'");
   return net::json_response(200, workup::case_json(services.cases_folder / id));
 }
 

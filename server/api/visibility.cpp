@@ -40,8 +40,6 @@ std::string counted_for(const net::Caller& caller) {
   return caller.user_id.empty() ? caller.credential : caller.user_id;
 }
 
-void refuse_unseen(const std::string& id) {
-  throw Error(ErrorKind::not_found, "no session '" + id + "'");
-}
+void refuse_unseen(const std::string& id) { throw Error(ErrorKind::not_found, "no session '" + id + "'"); }
 
 }  // namespace ream::api

@@ -16,9 +16,7 @@ namespace {
 /// A code that is taken is drawn again; that it is taken so often means something else is wrong.
 constexpr int max_draws = 20;
 
-Error unknown_study(const std::string& id) {
-  return {ErrorKind::not_found, "no study '" + id + "'"};
-}
+Error unknown_study(const std::string& id) { return {ErrorKind::not_found, "no study '" + id + "'"}; }
 
 }  // namespace
 
@@ -48,8 +46,7 @@ void StudyService::require_settings(const StudySettings& settings) const {
   if (!settings.feel && settings.cases.empty())
     throw Error(ErrorKind::invalid_input, "cases: a study needs one or more");
   for (const std::string& case_id : settings.cases)
-    if (!dependencies_->has_case(case_id))
-      throw Error(ErrorKind::not_found, "no case '" + case_id + "'");
+    if (!dependencies_->has_case(case_id)) throw Error(ErrorKind::not_found, "no case '" + case_id + "'");
   if (!settings.design || settings.design->test_case.empty()) return;
   if (std::find(settings.cases.begin(), settings.cases.end(), settings.design->test_case) ==
       settings.cases.end())

@@ -80,8 +80,7 @@ std::optional<SessionRecord> SessionArchive::find(const std::string& id) const {
 }
 
 nlohmann::json SessionArchive::metrics(const std::string& id) const {
-  if (!find(id))
-    throw Error(ErrorKind::not_found, "no session '" + id + "'");
+  if (!find(id)) throw Error(ErrorKind::not_found, "no session '" + id + "'");
   std::error_code failed;
   if (!fs::exists(metrics_json(folder_of(id)), failed))
     throw Error(ErrorKind::not_found, "session '" + id + "' left no metrics");

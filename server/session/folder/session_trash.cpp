@@ -76,8 +76,7 @@ bool SessionTrash::has(const std::string& id) const {
 void SessionTrash::take(const std::string& id) {
   const std::lock_guard one_at_a_time(changing_);
   const fs::path folder = sessions_ / id;
-  if (sessions_.empty() || !is_folder(folder))
-    throw Error(ErrorKind::not_found, "no session '" + id + "'");
+  if (sessions_.empty() || !is_folder(folder)) throw Error(ErrorKind::not_found, "no session '" + id + "'");
   const auto lock = FileLock::attempt(lock_file(folder));
   if (!lock) throw Error(ErrorKind::conflict, "session '" + id + "' is in use; it can be deleted after that");
   if (has(id))
@@ -89,8 +88,7 @@ void SessionTrash::take(const std::string& id) {
 
 void SessionTrash::give_back(const std::string& id) {
   const std::lock_guard one_at_a_time(changing_);
-  if (!has(id))
-    throw Error(ErrorKind::not_found, "no deleted session '" + id + "'");
+  if (!has(id)) throw Error(ErrorKind::not_found, "no deleted session '" + id + "'");
   std::error_code failed;
   if (fs::exists(sessions_ / id, failed))
     throw Error(ErrorKind::conflict, "there is another session '" + id + "' by now");

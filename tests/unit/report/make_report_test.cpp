@@ -85,7 +85,8 @@ TEST(MakeReport, ABreachDecidesAndIsMarked) {
   const Report report = make_report(m);
   EXPECT_EQ(report.verdict, "Failed");
   EXPECT_EQ(line(report, "Vault breach").mark, Mark::fail);
-  EXPECT_NE(report.reasons.front().find("Vault breach failed; it is a critical criterion"), std::string::npos);
+  EXPECT_NE(report.reasons.front().find("Vault breach failed; it is a critical criterion"),
+            std::string::npos);
 }
 
 TEST(MakeReport, LimitsAreThoseOfTheRubric) {
