@@ -1,5 +1,4 @@
-# What `cmake --install` and the Debian packages hold (scripts/package makes both packages): program and page as `ream`, papers
-# as `ream-doc`. The page (web/dist), man pages, completion and papers are made before; they lie in build/package.
+# What the Debian packages hold, which scripts/package makes: program and page as `ream`, papers as `ream-doc`. The page (web/dist), man pages, completion and papers are made before; they lie in build/package.
 set(REAM_PACKAGE_CONTACT "the authors of ream <ream@example.org>" CACHE STRING "Who keeps the packages, as Debian wants it")
 set(made ${CMAKE_BINARY_DIR}/package)
 install(TARGETS ream RUNTIME DESTINATION bin COMPONENT ream)

@@ -16,21 +16,26 @@ void remember_signal(int) {
   signalled = 1;
 }
 
-bool is_ignored(int signal) {
+bool has(int signal, void (*handler)(int)) {
   struct sigaction there {};
-  return ::sigaction(signal, nullptr, &there) == 0 && there.sa_handler == SIG_IGN;
+  return ::sigaction(signal, nullptr, &there) == 0 && there.sa_handler == handler;
+}
+
+/// Unless a library uses it.
+void end_in_order_on(int signal) {
+  if (has(signal, SIG_DFL)) keep_handler(signal, remember_signal);
 }
 
 }  // namespace
 
 void catch_interrupts(std::chrono::seconds timeout) {
   timeout_s = static_cast<sig_atomic_t>(timeout.count());
-  // All that would end the process at once, with force, and that nobody here has another use for.
-  for (const int signal :
-       {SIGINT, SIGTERM, SIGQUIT, SIGUSR1, SIGUSR2, SIGVTALRM, SIGPROF, SIGIO, SIGPWR, SIGSTKFLT})
-    keep_handler(signal, remember_signal);
-  for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) keep_handler(signal, remember_signal);
-  keep_handler(SIGHUP, is_ignored(SIGHUP) ? SIG_IGN : remember_signal);
+  for (const int signal : {SIGINT, SIGTERM, SIGQUIT}) keep_handler(signal, remember_signal);
+  // The others that would end the process at once, with force.
+  for (const int signal : {SIGUSR1, SIGUSR2, SIGVTALRM, SIGPROF, SIGIO, SIGPWR, SIGSTKFLT})
+    end_in_order_on(signal);
+  for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) end_in_order_on(signal);
+  keep_handler(SIGHUP, has(SIGHUP, SIG_IGN) ? SIG_IGN : remember_signal);
 }
 
 void take_failed_writes_as_errors() {

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,56 +23,57 @@ struct CloseFolder {
 
 constexpr int as_folder = O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
 
-/// Its owner may have taken his own rights away. Where they cannot be had back, it may be open all the same.
+/// Its owner may have taken his own rights away.
 FileDescriptor opened(int parent, const char* name) {
-  if (::fchmodat(parent, name, S_IRWXU, 0) != 0 && errno == ENOENT) return {};
-  return FileDescriptor(::openat(parent, name, as_folder));
+  FileDescriptor folder(::openat(parent, name, as_folder));
+  if (!folder && errno == EACCES && ::fchmodat(parent, name, S_IRWXU, 0) == 0)
+    folder = FileDescriptor(::openat(parent, name, as_folder));
+  if (folder && ::fchmod(folder.get(), S_IRWXU) != 0) return {};
+  return folder;
 }
 
-/// Empties the folder of all but folders that hold something. The name of the first of those; empty when
-/// there is none. `failed` is set when something else is left.
-std::string empty_but_folders(const FileDescriptor& folder, bool& failed) {
+/// Empties the folder of all but folders that hold something, whose names it returns; nothing when something
+/// else is left.
+std::optional<std::vector<std::string>> empty_but_folders(const FileDescriptor& folder) {
   const int copy = ::openat(folder.get(), ".", as_folder);
   const std::unique_ptr<DIR, CloseFolder> entries(copy < 0 ? nullptr : ::fdopendir(copy));
-  if (!entries) {
-    failed = true;
-    return {};
-  }
-  std::string full;
+  if (!entries) return std::nullopt;
+  std::vector<std::string> full;
   while (const dirent* entry = ::readdir(entries.get())) {
     const char* name = entry->d_name;
     if (std::strcmp(name, ".") == 0 || std::strcmp(name, "..") == 0) continue;
     if (::unlinkat(folder.get(), name, 0) == 0) continue;
-    if (errno != EISDIR && errno != EPERM) {
-      failed = true;
-      continue;
-    }
+    if (errno != EISDIR && errno != EPERM) return std::nullopt;
     if (::unlinkat(folder.get(), name, AT_REMOVEDIR) == 0) continue;
-    if (errno != ENOTEMPTY && errno != EEXIST)
-      failed = true;
-    else if (full.empty())
-      full = name;
+    if (errno != ENOTEMPTY && errno != EEXIST) return std::nullopt;
+    full.emplace_back(name);
   }
   return full;
 }
 
-/// Goes down into full folders and up again when they are empty; only the names of the way are kept.
+/// Goes down into full folders and up again when they are empty; only names are kept of the way.
 bool empty_folder(FileDescriptor folder) {
-  std::vector<std::string> way;
+  struct Level {
+    std::string name;
+    std::vector<std::string> full;  ///< folders in it that are still to be emptied
+  };
+  std::vector<Level> way;
+  std::string name;
   for (;;) {
-    bool failed = false;
-    std::string full = empty_but_folders(folder, failed);
-    if (failed) return false;
-    if (!full.empty()) {
-      folder = opened(folder.get(), full.c_str());
-      if (!folder) return false;
-      way.push_back(std::move(full));
-      continue;
+    auto full = empty_but_folders(folder);
+    if (!full) return false;
+    way.push_back({std::move(name), std::move(*full)});
+    while (way.back().full.empty()) {
+      const std::string emptied = std::move(way.back().name);
+      way.pop_back();
+      if (way.empty()) return true;
+      folder = FileDescriptor(::openat(folder.get(), "..", as_folder));
+      if (!folder || ::unlinkat(folder.get(), emptied.c_str(), AT_REMOVEDIR) != 0) return false;
     }
-    if (way.empty()) return true;
-    folder = FileDescriptor(::openat(folder.get(), "..", as_folder));
-    if (!folder || ::unlinkat(folder.get(), way.back().c_str(), AT_REMOVEDIR) != 0) return false;
-    way.pop_back();
+    name = std::move(way.back().full.back());
+    way.back().full.pop_back();
+    folder = opened(folder.get(), name.c_str());
+    if (!folder) return false;
   }
 }
 

@@ -33,6 +33,7 @@ namespace {
 constexpr int look_every_ms = 100;
 constexpr auto ending_takes = std::chrono::seconds(2);
 constexpr int max_output_depth = 32;
+constexpr uint64_t usual_least_free_bytes = uint64_t{1} << 30;
 constexpr size_t max_request_bytes = 32768, max_answer_bytes = 1 << 20, max_words = 1000;
 
 fs::path program_of(const ReaderJob& job) { return job.program.empty() ? reader_program() : job.program; }
@@ -187,8 +188,11 @@ class Answers {
  private:
   void require_space(const ReaderJob& job) const {
     struct statvfs system {};
-    if (::fstatvfs(output_.get(), &system) != 0) return;
-    if (uint64_t{system.f_bavail} * system.f_frsize < job.limits.least_free_bytes)
+    if (::fstatvfs(output_.get(), &system) != 0 || system.f_blocks == 0) return;
+    const uint64_t tenth = uint64_t{system.f_blocks} * system.f_frsize / 10;
+    const uint64_t least = job.limits.least_free_bytes > 0 ? job.limits.least_free_bytes
+                                                           : std::min(usual_least_free_bytes, tenth);
+    if (uint64_t{system.f_bavail} * system.f_frsize < least)
       throw Error(ErrorKind::io,
                   job.input.string() + " cannot be read: the disk for temporary files is nearly full");
   }

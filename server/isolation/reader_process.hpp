@@ -27,8 +27,8 @@ struct ReaderLimits {
   uint64_t file_bytes = uint64_t{16} << 30;  ///< of each file that it writes
   unsigned processor_s = 1800;
   std::chrono::milliseconds time = max_reading_time;
-  /// Of the disk that it writes to: recordings lie there, too.
-  uint64_t least_free_bytes = uint64_t{1} << 30;
+  /// Of the disk that it writes to, where recordings lie, too; 0: 1 GiB, or a tenth of a small disk.
+  uint64_t least_free_bytes = 0;
 };
 
 /// A file from outside, and what is to be read out of it.

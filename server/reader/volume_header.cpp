@@ -26,6 +26,7 @@ namespace {
 
 constexpr size_t max_header_bytes = 4 << 20;
 /// MetaIO reads lines into buffers of fixed lengths; no header needs more than this.
+constexpr char escape = 0x1b;  ///< in names of other alphabets (ISO 2022), which DICOM may have left there
 constexpr size_t max_meta_line_bytes = 450, max_meta_key_bytes = 64;
 constexpr double max_deflation = 1100.0;  // zlib's limit is 1032
 constexpr double nifti_axis_tolerance = 1e-3, same_size_tolerance = 0.01;
@@ -80,7 +81,9 @@ fs::path beside(const fs::path& path, const std::string& name) {
     refuse(path, "its voxels must be in one file beside it, not in '" + name.substr(0, 100) + "'");
   const fs::path holder = path.parent_path() / name;
   std::error_code failed;
-  if (!fs::is_regular_file(fs::symlink_status(holder, failed)))
+  if (fs::is_symlink(fs::symlink_status(holder, failed)))
+    refuse(path, "its voxels must be in a file, not in the link " + name.substr(0, 100));
+  if (!fs::is_regular_file(holder, failed))
     throw Error(ErrorKind::not_found, "no such file: " + (path.parent_path() / name.substr(0, 100)).string() +
                                           ", named by " + path.string());
   return holder;
@@ -317,7 +320,7 @@ void refuse_second_names(const fs::path& path, const std::string& line, const st
 void check_line(const fs::path& path, const std::string& line, char separator, bool first) {
   const auto shown = [&] { return "a line '" + one_line(line.substr(0, 60), 60) + "'"; };
   if (std::any_of(line.begin(), line.end(),
-                  [](char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\t'; }))
+                  [](char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != escape; }))
     refuse(path, "its header has " + shown() + " with control characters");
   const size_t end = line.find_first_of(":=");
   if (separator == '=') {

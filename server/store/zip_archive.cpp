@@ -79,7 +79,7 @@ bool stays_inside(const std::string& name) {
   if (path.is_absolute()) return false;
   size_t parts = 0;
   for (const fs::path& part : path)
-    if (part == ".." || part == "." || ++parts > max_name_parts) return false;
+    if (part == ".." || part == "." || (!part.empty() && ++parts > max_name_parts)) return false;
   return true;
 }
 
@@ -122,7 +122,7 @@ std::vector<std::string> checked_names(zip_t* archive, const fs::path& zip, cons
                                               std::to_string(limits.entries) + ")");
   std::vector<std::string> names;
   std::set<std::string> folders;
-  uint64_t total = 0, places = count;
+  uint64_t total = 0, places = 0;
   for (zip_uint64_t i = 0; i < count; ++i) {
     const char* given = zip_get_name(archive, i, 0);
     names.emplace_back(given == nullptr ? "" : given);
@@ -130,7 +130,8 @@ std::vector<std::string> checked_names(zip_t* archive, const fs::path& zip, cons
     if (!stays_inside(name))
       throw unusable(zip, name,
                      "has a name that leads out of the archive or too deep, and may not be unpacked");
-    if (places += new_folders(name, folders); places > limits.entries)
+    places += new_folders(name, folders) + (name.back() == '/' ? 0 : 1);
+    if (places > limits.entries)
       throw unusable(zip, name,
                      "is in one folder too many: more files and folders than may be unpacked (" +
                          std::to_string(limits.entries) + ")");

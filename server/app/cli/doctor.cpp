@@ -68,6 +68,8 @@ fs::path existing_part(fs::path folder) {
 }
 
 Finding examine_data(const DoctorRequest& request) {
+  std::error_code failed;
+  const bool is_there = fs::exists(request.data, failed);
   const fs::path there = existing_part(request.data);
   const std::string name = request.data.string();
   if (::access(there.c_str(), W_OK | X_OK) != 0)
@@ -79,7 +81,7 @@ Finding examine_data(const DoctorRequest& request) {
   if (FileLock::held(serving_lock(request.data)))
     return {"data folder", State::good, "A server runs on " + name + ".", ""};
   return {"data folder", State::good,
-          name + (there == request.data ? " can be written to." : " is made when the server starts."), ""};
+          name + (is_there ? " can be written to." : " is made when the server starts."), ""};
 }
 
 Finding examine_space(const DoctorRequest& request) {

@@ -131,8 +131,6 @@ case_::Plan changed_plan(const PlanOptions& options, const Patient& patient) {
   if (!options.implant.empty()) plan.implant_size = options.implant;
   set_pilot(plan, options);
   if (!options.guide.empty()) plan.guide = case_::guide_from_text(options.guide);
-  plan.override_correction = plan.override_correction || !options.override_reason.empty();
-  if (!options.override_reason.empty()) plan.override_reason = options.override_reason;
   return plan;
 }
 
@@ -153,8 +151,11 @@ void print(const case_::Plan& plan, const case_::PlanAssessment& assessment,
 }
 
 void require_possible_depth(const case_::Plan& plan, const case_::PlanAssessment& assessment,
-                            const PlanOptions& options) {
+                            const PlanOptions& options, const std::optional<case_::Plan>& before) {
   if (!assessment.vault_depth_mm || plan.depth_mm < *assessment.vault_depth_mm) return;
+  if (before && before->depth_mm == plan.depth_mm && before->axis_direction == plan.axis_direction &&
+      before->entry_mm == plan.entry_mm)
+    return;
   if (!options.override_reason.empty()) return;
   std::ostringstream words;
   words << std::fixed << std::setprecision(1) << "a depth of " << plan.depth_mm
@@ -173,17 +174,27 @@ void plan_case(PlanOptions options, const GlobalOptions& global) {
     patient.landmarks =
         case_::landmarks_from_json(read_json_file(options.landmarks), options.landmarks.string());
   const case_::Case& c = patient.bone_case;
-  const case_::Plan plan = changed_plan(options, patient);
+  case_::Plan plan = changed_plan(options, patient);
   case_::validate(plan, "plan of " + folder.string());
   const case_::Landmarks landmarks = patient.landmarks.value_or(case_::Landmarks{});
-  const case_::PlanAssessment assessment =
-      case_::assess_plan(plan, landmarks, c.side, &c.bone, c.glenoid ? &*c.glenoid : nullptr);
+  const auto assess = [&] {
+    return case_::assess_plan(plan, landmarks, c.side, &c.bone, c.glenoid ? &*c.glenoid : nullptr);
+  };
+  case_::PlanAssessment assessment = assess();
+  if (assessment.needs_override && !options.override_reason.empty()) {
+    plan.override_correction = true;
+    plan.override_reason = options.override_reason;
+    assessment = assess();
+  }
   const bool same_axis = c.plan && c.plan->axis_direction == plan.axis_direction;
   if (assessment.needs_override && !same_axis)
     throw Error(ErrorKind::conflict, case_::why_refused(assessment) + ": --override REASON");
-  require_possible_depth(plan, assessment, options);
-  if (options.case_name == "demo" && !options.replace && c.plan &&
-      case_::to_json(*c.plan) != case_::to_json(plan))
+  require_possible_depth(plan, assessment, options, c.plan);
+  std::error_code failed;
+  const bool is_demo = std::filesystem::equivalent(folder, cases_folder(data) / "demo", failed);
+  const bool changes =
+      !options.landmarks.empty() || (c.plan && case_::to_json(*c.plan) != case_::to_json(plan));
+  if (is_demo && changes && !options.replace)
     throw Error(
         ErrorKind::conflict,
         "this would change the plan of the built-in demo for everybody who uses this data folder: --replace");

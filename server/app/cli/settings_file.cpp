@@ -68,7 +68,8 @@ class TomlSettings : public CLI::Config {
     const CLI::App& command = *app_.get_subcommand(name);
     const std::set<std::string> names = option_names(command);
     for (const auto& [key, value] : section.as_table())
-      found.push_back(item({name}, key, value, command, names));
+      if (CLI::ConfigItem read = item({name}, key, value, command, names); !read.inputs.empty())
+        found.push_back(std::move(read));
   }
 
   static std::set<std::string> option_names(const CLI::App& command) {
@@ -118,6 +119,7 @@ class TomlSettings : public CLI::Config {
 void add_settings_file(CLI::App& app) {
   const std::string file = environment("REAM_CONFIG");
   app.set_config("--config", file, "Settings, a TOML file. Default: REAM_CONFIG, else none", !file.empty());
+  app.get_config_ptr()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.config_formatter(std::make_shared<TomlSettings>(app));
 }
 

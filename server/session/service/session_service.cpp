@@ -242,9 +242,13 @@ void SessionService::end_unused(std::chrono::steady_clock::time_point now) {
         limits_.unstarted && state == SessionState::created && now - entry->made >= *limits_.unstarted;
     const bool left = limits_.paused && entry->paused_since && now - *entry->paused_since >= *limits_.paused;
     if (!unstarted && !left) continue;
-    entry->running->stop();
-    log::info("session " + entry->id() +
-              " was ended: " + (unstarted ? "nobody started it" : "it was paused for too long"));
+    try {
+      entry->running->stop();
+      log::info("session " + entry->id() +
+                " was ended: " + (unstarted ? "nobody started it" : "it was paused for too long"));
+    } catch (const std::exception& failure) {
+      log::error("session " + entry->id() + " could not be ended: " + failure.what());
+    }
   }
 }
 

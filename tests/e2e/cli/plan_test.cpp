@@ -49,6 +49,10 @@ TEST_F(Planning, ByVersionAndInclinationOfTheLandmarks) {
   EXPECT_EQ(json_of("data/cases/b2/landmarks.json"), json_of("ct/landmarks.json")) << "kept with the case";
 
   refuse(1, "a depth of 90.0 mm goes through the bone", {"plan", "b2", "--depth-mm", "90"});
+  const json deep = answer({"plan", "b2", "--depth-mm", "90", "--override", "a bad example"});
+  EXPECT_EQ(deep.value("override", false), false) << "a reason for the depth is none for the angle";
+  succeed({"plan", "b2", "--implant", "pegged medium"});
+  refuse(1, "refused from 15", {"plan", "b2", "--version-deg", "0", "--depth-mm", "1"});
   const Outcome words = succeed({"plan", "b2", "--depth-mm", "1"});
   EXPECT_NE(words.out.find("retroversion"), std::string::npos) << words.out;
   EXPECT_NE(words.error.find("by reaming alone"), std::string::npos) << words.error;
@@ -58,6 +62,7 @@ TEST_F(Planning, ByVersionAndInclinationOfTheLandmarks) {
 TEST_F(CommandLine, ThePlanOfTheDemoChangesOnlyWhereThatIsWanted) {
   const json before = answer({"plan", "demo"});
   refuse(1, "--replace", {"plan", "demo", "--depth-mm", "2"});
+  refuse(1, "--replace", {"plan", "data/cases/demo", "--depth-mm", "2"});
   EXPECT_EQ(answer({"plan", "demo"}), before);
   EXPECT_EQ(answer({"plan", "demo", "--depth-mm", "2", "--replace"}).at("depth_mm"), 2.0);
 }

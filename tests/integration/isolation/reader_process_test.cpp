@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <limits>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -138,6 +139,9 @@ TEST_F(ReaderProcess, StaysWithinItsLimits) {
   ReaderJob disk = job("take_disk");
   disk.limits.file_bytes = 8 << 20;
   expect_refused(disk, "larger than is taken");
+  ReaderJob full = job("spin");
+  full.limits.least_free_bytes = std::numeric_limits<uint64_t>::max();
+  expect_error(ErrorKind::io, "nearly full", [&] { read_isolated(full); });
   ReaderJob processor = job("spin");
   processor.limits.processor_s = 1;
   expect_refused(processor, "more than 1 s of processor time");

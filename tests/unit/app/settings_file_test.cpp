@@ -51,6 +51,7 @@ TEST_F(SettingsFile, SetsWhatTheCommandLineDoesNot) {
 port = 9001
 host = "::1"
 public-name = ["ream.example.org", "10.0.0.7"]
+trusted-proxy = []
 insecure = true
 keep-sessions-days = 365
 log-format = 'json'
@@ -60,6 +61,7 @@ log-format = 'json'
   EXPECT_EQ(options_.address.port, 9002);
   EXPECT_EQ(options_.address.host, "::1");
   EXPECT_EQ(options_.address.public_names, (std::vector<std::string>{"ream.example.org", "10.0.0.7"}));
+  EXPECT_TRUE(options_.address.trusted_proxies.empty());
   EXPECT_TRUE(options_.address.insecure);
   EXPECT_EQ(options_.keep_sessions_days, 365);
   EXPECT_EQ(options_.log_format, "json");
@@ -106,6 +108,11 @@ TEST_F(SettingsFile, HoldsDaysToTheirRange) {
 }
 TEST_F(SettingsFile, HoldsWordsToTheOnesThatAreKnown) {
   EXPECT_THROW(parse("[serve]\nrealtime = 'always'\n"), CLI::ValidationError);
+}
+TEST_F(SettingsFile, OfSeveralTheLastIsRead) {
+  const std::string first = folder_.write("first.toml", "data = '/first'\n");
+  parse("data = '/last'\n", {first, "--config"});
+  EXPECT_EQ(data_, "/first") << "CLI11 takes the words from the back, so that this one came last";
 }
 TEST_F(SettingsFile, MustBeThere) {
   EXPECT_THROW(app_.parse(std::vector<std::string>{"/nowhere.toml", "--config", "serve"}), CLI::FileError);

@@ -43,6 +43,14 @@ TEST(RemoveTree, TakesAwayWhatLiesDeeperThanDescriptorsAndNamesReach) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
+TEST(RemoveTree, TakesManyFullFoldersBesideEachOther) {
+  const test::TemporaryFolder folder;
+  for (int i = 0; i < 3000; ++i) folder.write("top/" + std::to_string(i) + "/inner/file", "");
+  const FewDescriptors few(32);
+  EXPECT_TRUE(remove_tree(folder.path() / "top"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
 TEST(RemoveTree, TakesLinksAwayAndDoesNotFollowThem) {
   const test::TemporaryFolder folder, other;
   other.write("kept/file", "kept");
