@@ -121,7 +121,15 @@ test('a participant feels plates and answers, trial after trial; the operator re
 
   // After the session nothing tells what the plates were made of, and the answer is one key away.
   await feelPlates(trainee);
-  for (const id of ['bone-canvas', 'result-card', 'show-result', 'results', 'removed-volume', 'sessions', 'next-attempt'])
+  for (const id of [
+    'bone-canvas',
+    'result-card',
+    'show-result',
+    'results',
+    'removed-volume',
+    'sessions',
+    'next-attempt',
+  ])
     await expect(trainee.getByTestId(id)).toHaveCount(0);
   await expect(trainee.getByTestId('answer-now')).toBeFocused();
   expect(await serious(trainee)).toEqual([]);
