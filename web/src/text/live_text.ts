@@ -52,7 +52,7 @@ export const liveText = {
     `${degrees}°${sign === 0 ? '' : sign < 0 ? ' more retroverted' : ' more anteverted'}`,
   inclinationOff: (degrees: string, sign: number) =>
     `${degrees}°${sign === 0 ? '' : sign < 0 ? ' more inferior' : ' more superior'}`,
-  againstPlan: (plan: string, off: string) => `plan ${plan}, off by ${off}°`,
+  againstPlan: (plan: string, off: string | null) => (off === null ? `plan ${plan}` : `plan ${plan}, off by ${off}°`),
   noLandmarks: 'No landmarks available: angles are relative to the plan.',
   retro: 'retro',
   ante: 'ante',

@@ -64,7 +64,7 @@ function AngleGauge({ id, name, now, planned, say, ends }: AngleParts) {
   const look =
     off === null ? 'unknown' : Math.abs(off) <= goodDeg ? 'good' : Math.abs(off) <= passesDeg ? 'warn' : 'bad';
   const text = spoken(now, say);
-  const against = liveText.againstPlan(spoken(planned, say), off === null ? appText.none : fixed(Math.abs(off), 1));
+  const against = liveText.againstPlan(spoken(planned, say), off === null ? null : fixed(Math.abs(off), 1));
   const place = 50 + (Math.max(-reachDeg, Math.min(reachDeg, off ?? 0)) / reachDeg) * 50;
   return (
     <div class={`gauge gauge-${look}`} data-testid={`gauge-${id}`} data-look={look}>
