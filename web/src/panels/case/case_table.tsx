@@ -82,7 +82,7 @@ function CaseRow(parts: RowParts) {
           {one.stage === 'built' && !one.planned ? caseText.stageNoPlan : caseText.stages[one.stage]}
         </span>
       </td>
-      <td data-testid={`plan-of-${one.id}`}>
+      <td class="case-plan" data-testid={`plan-of-${one.id}`}>
         <PlanSummary one={one} plan={controller.plans.plans.value[one.id]} />
       </td>
       <td class="case-size">
