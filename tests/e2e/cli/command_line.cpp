@@ -82,7 +82,8 @@ void CommandLine::refuse_beside_others(int exit_code, const std::string& mention
   SCOPED_TRACE("ream " + testing::PrintToString(arguments));
   const Outcome outcome = run(arguments);
   EXPECT_EQ(outcome.exit_code, exit_code) << outcome.error;
-  EXPECT_EQ(outcome.error.rfind("ream: ", 0), 0u) << outcome.error;
+  const bool for_programs = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
+  EXPECT_TRUE(outcome.error.starts_with(for_programs ? R"({"error":")" : "ream: ")) << outcome.error;
   EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
   EXPECT_TRUE(outcome.error.ends_with('\n'));
   EXPECT_NE(outcome.error.find(mentioned), std::string::npos)
