@@ -68,7 +68,12 @@ void back_up(const BackupOptions& options, const GlobalOptions& global) {
     const TerminalProgress progress;
     report = write_backup(*database, data, options.file, std::cref(progress));
   }
-  note(*database, "data.backup", options.file.filename().string());
+  try {
+    note(*database, "data.backup", options.file.filename().string());
+  } catch (const Error& failure) {
+    // Who saves what is on a full disk shall have it.
+    log::warn(std::string("the audit log does not have this backup: ") + failure.what());
+  }
   for (const std::string& id : report.live)
     log::warn("session " + id + " is live; it is kept as far as it had come");
   if (global.json)

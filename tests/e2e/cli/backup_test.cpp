@@ -97,13 +97,15 @@ TEST_F(Backup, AFullDiskLeavesNothing) {
   std::mt19937 random(test::seed(1));
   for (int i = 0; i < 100'000; ++i) noise += static_cast<char>(random());
   write("data/reamers/noise.bin", noise);
+  succeed({"user", "list"});
+  std::filesystem::copy_file(folder() / "data/ream.db", folder() / "empty.db");
   succeed({"backup", "good.zip"});
   const auto before = tree();
   const std::string program = build_folder() + "/ream";
   for (const std::string& command :
        {program + " backup other.zip", program + " restore good.zip --data data2"}) {
     std::filesystem::create_directories(folder() / "data2");
-    std::filesystem::copy_file(folder() / "data/ream.db", folder() / "data2/ream.db",
+    std::filesystem::copy_file(folder() / "empty.db", folder() / "data2/ream.db",
                                std::filesystem::copy_options::overwrite_existing);
     EXPECT_EQ(start_program({"/bin/sh", "-c", "ulimit -f 64; exec " + command}, "full")  // 32 KiB a file
                   ->wait(60s),
