@@ -26,8 +26,8 @@ std::vector<std::string> table_names();
 void migrate(Sql& sql);
 
 /// How many steps of this build the database at `url` has not run. It is made ready by opening it
-/// (store::Database); this changes no table, and makes no database. Errors: those of opening it, and conflict when
-/// a newer build has changed its tables.
+/// (store::Database); this changes no table, and makes no database. Errors: those of opening it, and conflict
+/// when a newer build has changed its tables.
 size_t missing_migrations(const std::string& url);
 
 }  // namespace ream::store
