@@ -2,6 +2,7 @@ import '../styles/pages.css';
 
 import { useEffect, useMemo, useRef } from 'preact/hooks';
 
+import { PageButtons } from '../panels/common/page_buttons';
 import { PageHeader } from '../panels/common/page_header';
 import { Message } from '../panels/common/fields';
 import { FilterBar } from '../panels/sessions/filter_bar';
@@ -14,7 +15,6 @@ import { addressOfReplay } from '../state/replay_address';
 import { SessionBrowser } from '../state/sessions/session_browser';
 import { SessionListApi } from '../wire/session_list_api';
 import type { LivePageParts } from './live_page';
-import { Button } from '../panels/common/button';
 
 const readAgainMs = 5000;
 const browser = new SessionBrowser(new SessionListApi(window.location.origin));
@@ -85,7 +85,7 @@ export function SessionsPage({ live }: { live: LivePageParts }) {
           {page !== null && page.sessions.length > 0 && (
             <SessionTable browser={browser} watch={acts.watch} replay={(session) => void acts.replay(session)} />
           )}
-          <Pages />
+          <PageButtons list={browser} />
         </section>
       </main>
     </div>
@@ -104,24 +104,5 @@ function Deleted() {
         </button>
       </Message>
     </div>
-  );
-}
-
-function Pages() {
-  const at = browser.cursors.value.length;
-  const next = browser.page.value.value?.next ?? null;
-  if (at === 1 && next === null) return null;
-  return (
-    <nav class="content-form pages" aria-label={sessionText.page(at)}>
-      <Button testId="previous-page" disabled={at === 1} onClick={() => void browser.previous()}>
-        {sessionText.previousPage}
-      </Button>
-      <span class="soft" aria-live="polite">
-        {sessionText.page(at)}
-      </span>
-      <Button testId="next-page" disabled={next === null} onClick={() => void browser.next()}>
-        {sessionText.nextPage}
-      </Button>
-    </nav>
   );
 }

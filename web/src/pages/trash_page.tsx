@@ -5,6 +5,7 @@ import { useEffect } from 'preact/hooks';
 import { ActionsColumn } from '../panels/common/actions_column';
 import { Button } from '../panels/common/button';
 import { Message } from '../panels/common/fields';
+import { PageButtons } from '../panels/common/page_buttons';
 import { PageHeader } from '../panels/common/page_header';
 import { addressOfRoute } from '../state/route';
 import { TrashBrowser } from '../state/sessions/trash_browser';
@@ -52,7 +53,7 @@ export function TrashPage() {
             </p>
           )}
           {page !== null && page.deleted.length > 0 && <DeletedTable deleted={page.deleted} />}
-          <Pages />
+          <PageButtons list={trash} />
         </section>
       </main>
     </div>
@@ -137,24 +138,5 @@ function DeletedRow({ one }: { one: DeletedSession }) {
         </Button>
       </td>
     </tr>
-  );
-}
-
-function Pages() {
-  const at = trash.cursors.value.length;
-  const next = trash.page.value.value?.next ?? null;
-  if (at === 1 && next === null) return null;
-  return (
-    <nav class="content-form pages" aria-label={trashText.page(at)}>
-      <Button testId="previous-page" disabled={at === 1} onClick={() => void trash.previous()}>
-        {trashText.previousPage}
-      </Button>
-      <span class="soft" aria-live="polite">
-        {trashText.page(at)}
-      </span>
-      <Button testId="next-page" disabled={next === null} onClick={() => void trash.next()}>
-        {trashText.nextPage}
-      </Button>
-    </nav>
   );
 }

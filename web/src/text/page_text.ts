@@ -10,6 +10,9 @@ export const pageText = {
   report: 'Report',
   reportOf: (id: string) => `Report of session ${id}`,
   making: (percent: string) => `Report ${percent}`,
+  previousPage: 'Previous page',
+  nextPage: 'Next page',
+  page: (number: number) => `Page ${number}`,
   points: 'Points',
   result: 'Result',
 };

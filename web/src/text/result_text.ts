@@ -26,7 +26,7 @@ export const resultText = {
   tryAgainHint: 'A new session on the same case, in the same mode',
   practiseHint: 'A new session on this case',
   report: 'Report (PDF)',
-  making: (percent: string) => `Report: ${percent} %`,
+  making: (percent: string) => `Report: ${percent}`,
   reportFailed: (reason: string) => `The report could not be prepared. ${reason}`,
   close: 'Close the result',
   show: 'Show result',

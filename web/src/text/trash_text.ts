@@ -18,7 +18,4 @@ export const trashText = {
   restore: 'Restore',
   restoreOf: (name: string) => `Restore session ${name}`,
   restored: (id: string) => `Session ${id} is restored.`,
-  page: (number: number) => `Page ${number}`,
-  previousPage: 'Previous page',
-  nextPage: 'Next page',
 };

@@ -11,13 +11,12 @@ import { addressOfRoute } from '../../state/route';
 import type { Store } from '../../state/store';
 import type { Watcher } from '../../state/watcher';
 import { appText } from '../../text/app_text';
-import { fixed, sentence } from '../../text/format';
+import { fixed, percent, sentence } from '../../text/format';
 import { resultText } from '../../text/result_text';
-import { messageOf } from '../../wire/rest';
 import type { Score, Session } from '../../wire/rest_types';
 import type { ReviewApi } from '../../wire/review_api';
 import { Button } from '../common/button';
-import { saveExport } from '../common/save_export';
+import { useExport } from '../common/use_export';
 import { useIdentity } from '../common/site_nav';
 import { OutcomeMark } from '../dashboard/outcome_mark';
 import { Figure } from './figures';
@@ -207,20 +206,14 @@ function Buttons({
 }
 
 function ReportButton({ session, review }: { session: Session; review: ReviewApi }) {
-  const share = useSignal<number | null>(null);
   const problem = useSignal<string | null>(null);
-  const make = async () => {
-    share.value = 0;
-    problem.value = null;
-    await saveExport(review, session.id, 'pdf', (now) => (share.value = now)).catch((error: unknown) => {
-      problem.value = resultText.reportFailed(sentence(messageOf(error)));
-    });
-    share.value = null;
-  };
+  const { share, make } = useExport(review, session.id, 'pdf', (reason) => {
+    problem.value = reason === null ? null : resultText.reportFailed(sentence(reason));
+  });
   return (
     <>
-      <Button testId="result-report" disabled={share.value !== null} onClick={() => void make()}>
-        {share.value === null ? resultText.report : resultText.making(fixed(share.value * 100, 0))}
+      <Button testId="result-report" disabled={share !== null} onClick={() => void make()}>
+        {share === null ? resultText.report : resultText.making(percent(share))}
       </Button>
       {problem.value !== null && <p role="alert">{problem.value}</p>}
     </>

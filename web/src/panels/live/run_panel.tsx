@@ -105,12 +105,11 @@ function ShowResult({ result }: { result: ResultWatch }) {
   );
 }
 
-function isLeft(store: Store, practiceStore: PracticeStore): boolean {
-  const details = store.details.value;
-  if (details === null || details.id !== store.sessionId.value) return false;
-  const steered = practiceStore.sessionId.value === details.id;
-  const { held } = details;
-  return sessionChoices({ state: store.sessionState.value, held, steered, pageLost: isPageLost(details) }).left;
+function isLeft({ watched, sessionState }: Store, practiceStore: PracticeStore): boolean {
+  const session = watched.value;
+  if (session === null) return false;
+  const steered = practiceStore.sessionId.value === session.id;
+  return sessionChoices({ state: sessionState.value, held: session.held, steered, pageLost: isPageLost(session) }).left;
 }
 
 /** For pages that watch while another one steers, or did until it was closed. */

@@ -2,10 +2,9 @@ import { useSignal } from '@preact/signals';
 
 import { reviewText } from '../../text/review_text';
 import type { ReviewSession } from '../../state/review/review_session';
-import { messageOf } from '../../wire/rest';
 import { exportFormats, type ExportFormat, type ReviewApi } from '../../wire/review_api';
 import { Message } from '../common/fields';
-import { saveExport } from '../common/save_export';
+import { useExport } from '../common/use_export';
 import { percent, sentence } from '../../text/format';
 import { lazyPart } from '../common/lazy_part';
 import { useIdentity } from '../common/site_nav';
@@ -61,30 +60,16 @@ interface ExportParts {
 
 /** Makes a file and gives it to the browser when it is done. */
 function ExportButton({ session, review, format, absent }: ExportParts) {
-  const share = useSignal<number | null>(null);
   const problem = useSignal<string | null>(null);
   const [label, hint] = reviewText.formats[format];
-  const make = async () => {
-    share.value = 0;
-    problem.value = null;
-    try {
-      await saveExport(review, session.id, format, (now) => (share.value = now));
-    } catch (error) {
-      problem.value = reviewText.exportFailed(label, sentence(messageOf(error)));
-    } finally {
-      share.value = null;
-    }
-  };
+  const { share, make } = useExport(review, session.id, format, (reason) => {
+    problem.value = reason === null ? null : reviewText.exportFailed(label, sentence(reason));
+  });
   return (
     <>
-      <Button
-        testId={`export-${format}`}
-        title={hint}
-        disabled={absent || share.value !== null}
-        onClick={() => void make()}
-      >
+      <Button testId={`export-${format}`} title={hint} disabled={absent || share !== null} onClick={() => void make()}>
         {label}
-        {share.value !== null && <span role="status"> {reviewText.making(percent(share.value))}</span>}
+        {share !== null && <span role="status"> {reviewText.making(percent(share))}</span>}
       </Button>
       {problem.value !== null && (
         <Message kind="bad" testId={`export-problem-${format}`}>

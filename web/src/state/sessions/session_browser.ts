@@ -2,7 +2,7 @@ import { batch, computed, signal } from '@preact/signals';
 
 import type { Session, SessionChange, SessionPage } from '../../wire/rest_types';
 import type { SessionListApi, SessionQuery, SortKey } from '../../wire/session_list_api';
-import { Remote } from '../remote';
+import { Paged } from '../paged';
 
 export const pageSize = 25;
 
@@ -18,13 +18,10 @@ export const everything: SessionQuery = {
 };
 
 /** Pages of the sessions that the filters let pass. */
-export class SessionBrowser {
+export class SessionBrowser extends Paged<SessionPage> {
   readonly query = signal<SessionQuery>(everything);
-  readonly page: Remote<SessionPage>;
   /** The session that was deleted last, as long as that can be undone here. */
   readonly deleted = signal<Session | null>(null);
-  /** Cursors of the pages up to the one that is shown; the first page has none. */
-  readonly cursors = signal<readonly (string | null)[]>([null]);
 
   /** Not all sessions are wanted. */
   readonly filtered = computed(() => {
@@ -33,7 +30,7 @@ export class SessionBrowser {
   });
 
   constructor(private readonly api: SessionListApi) {
-    this.page = new Remote(() => api.page(this.query.value, this.cursors.value.at(-1) ?? null, pageSize));
+    super((cursor) => api.page(this.query.value, cursor, pageSize));
   }
 
   /** Other filters or another order begin at the first page. */
@@ -51,19 +48,6 @@ export class SessionBrowser {
     const { query } = this;
     const same = query.value.sort === sort;
     await this.show({ sort, descending: same ? !query.value.descending : sort === 'created_utc' });
-  }
-
-  async next(): Promise<void> {
-    const next = this.page.value.value?.next ?? null;
-    if (next === null) return;
-    this.cursors.value = [...this.cursors.value, next];
-    await this.page.read();
-  }
-
-  async previous(): Promise<void> {
-    if (this.cursors.value.length < 2) return;
-    this.cursors.value = this.cursors.value.slice(0, -1);
-    await this.page.read();
   }
 
   async change(id: string, change: SessionChange): Promise<boolean> {

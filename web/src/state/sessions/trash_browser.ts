@@ -1,33 +1,17 @@
 import { signal } from '@preact/signals';
 
 import type { DeletedSessionList, TrashApi } from '../../wire/trash_api';
-import { Remote } from '../remote';
+import { Paged } from '../paged';
 
 const pageSize = 25;
 
 /** Pages of the deleted sessions. */
-export class TrashBrowser {
-  readonly page: Remote<DeletedSessionList>;
+export class TrashBrowser extends Paged<DeletedSessionList> {
   /** The session that was restored last. */
   readonly restored = signal<string | null>(null);
-  /** Cursors of the pages up to the one that is shown; the first page has none. */
-  readonly cursors = signal<readonly (string | null)[]>([null]);
 
   constructor(private readonly api: Pick<TrashApi, 'page' | 'restore'>) {
-    this.page = new Remote(() => api.page(this.cursors.value.at(-1) ?? null, pageSize));
-  }
-
-  async next(): Promise<void> {
-    const next = this.page.value.value?.next ?? null;
-    if (next === null) return;
-    this.cursors.value = [...this.cursors.value, next];
-    await this.page.read();
-  }
-
-  async previous(): Promise<void> {
-    if (this.cursors.value.length < 2) return;
-    this.cursors.value = this.cursors.value.slice(0, -1);
-    await this.page.read();
+    super((cursor) => api.page(cursor, pageSize));
   }
 
   async restore(id: string): Promise<void> {
