@@ -33,6 +33,10 @@ std::shared_ptr<store::Database> open_database(const std::string& chosen, const 
   return std::make_shared<store::Database>(url);
 }
 
+access::Actor command_line_actor() {
+  return {"", "command line", access::to_text(access::Role::operator_), "", ""};
+}
+
 bool has_users(const std::string& chosen, const std::filesystem::path& data) {
   const store::DatabaseUrl url = store::parse_database_url(database_url(chosen, data));
   std::error_code failed;

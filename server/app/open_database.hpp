@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "access/audit_log.hpp"
 #include "store/database.hpp"
 
 namespace ream::app {
@@ -13,6 +14,9 @@ std::string database_url(const std::string& chosen, const std::filesystem::path&
 
 /// Opens it. The data folder is made if the database is there. Errors are those of store::Database, too.
 std::shared_ptr<store::Database> open_database(const std::string& chosen, const std::filesystem::path& data);
+
+/// Whoever may run commands on the data folder, as the audit log has them.
+access::Actor command_line_actor();
 
 /// Whether people have to log in. Makes nothing where there is no database yet. Errors as open_database().
 bool has_users(const std::string& chosen, const std::filesystem::path& data);

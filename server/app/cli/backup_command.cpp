@@ -43,8 +43,7 @@ std::string alt_text(const std::map<std::string, size_t>& counts, uint64_t rows)
 
 /// In the audit log of the database as it is now.
 void note(store::Database& database, const std::string& action, const std::string& detail) {
-  access::AccessControl(database).audit.note(
-      {"", "command line", access::to_text(access::Role::operator_), "", ""}, action, "", detail);
+  access::AccessControl(database).audit.note(command_line_actor(), action, "", detail);
 }
 
 /// 0 for a log without rows.

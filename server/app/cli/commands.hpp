@@ -52,6 +52,11 @@ void add_completion_command(CLI::App& app);
 /// nothing takes, with file and line.
 void add_settings_file(CLI::App& app);
 
+/// Commands directly below `command`.
+std::vector<const CLI::App*> commands_below(const CLI::App& command);
+/// Options that it takes, those of the commands above it among them: "--case".
+std::vector<std::string> option_names(const CLI::App& command);
+
 /// One sentence about the first argument that is no command or option of `app`, with the nearest that is one;
 /// empty when all are known. `arguments`: without the program's name.
 std::string unknown_argument(const CLI::App& app, const std::vector<std::string>& arguments);

@@ -10,11 +10,8 @@ namespace {
 /// Words that may follow a command, as Bash has them in `compgen -W`.
 std::string words(const CLI::App& command) {
   std::string all;
-  for (const CLI::App* below : command.get_subcommands([](const CLI::App*) { return true; }))
-    all += below->get_name() + " ";
-  for (const CLI::App* above = &command; above != nullptr; above = above->get_parent())
-    for (const CLI::Option* option : above->get_options())
-      for (const std::string& name : option->get_lnames()) all += "--" + name + " ";
+  for (const CLI::App* below : commands_below(command)) all += below->get_name() + " ";
+  for (const std::string& name : option_names(command)) all += name + " ";
   if (!all.empty()) all.pop_back();
   return all;
 }
@@ -22,7 +19,7 @@ std::string words(const CLI::App& command) {
 /// A line for the command and one for each below it: what has been typed, and what may come next.
 void print_cases(const CLI::App& command, const std::string& typed) {
   std::cout << "    '" << typed << "') words='" << words(command) << "' ;;\n";
-  for (const CLI::App* below : command.get_subcommands([](const CLI::App*) { return true; }))
+  for (const CLI::App* below : commands_below(command))
     print_cases(*below, typed.empty() ? below->get_name() : typed + " " + below->get_name());
 }
 

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <functional>
 #include <thread>
+
 #include "app/cli/serve_options.hpp"
 #include "app/numbers.hpp"
-
 #include "app/open_database.hpp"
 #include "core/clock.hpp"
 #include "core/data_folder.hpp"

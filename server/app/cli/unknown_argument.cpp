@@ -37,17 +37,7 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
 
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    names.push_back(command->get_name());
-  return names;
-}
-
-/// Those of the command and of all above it.
-std::vector<std::string> option_names(const CLI::App* command) {
-  std::vector<std::string> names;
-  for (; command != nullptr; command = command->get_parent())
-    for (const CLI::Option* option : command->get_options())
-      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (const CLI::App* command : commands_below(app)) names.push_back(command->get_name());
   return names;
 }
 
@@ -70,6 +60,18 @@ std::string full_name(const CLI::App* command) {
 
 }  // namespace
 
+std::vector<const CLI::App*> commands_below(const CLI::App& command) {
+  return command.get_subcommands([](const CLI::App*) { return true; });
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::App* above = &command; above != nullptr; above = above->get_parent())
+    for (const CLI::Option* option : above->get_options())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
 std::string unknown_argument(const CLI::App& app, const std::vector<std::string>& arguments) {
   const CLI::App* command = &app;
   for (size_t i = 0; i < arguments.size(); ++i) {
@@ -79,7 +81,7 @@ std::string unknown_argument(const CLI::App& app, const std::vector<std::string>
       const std::string name = argument.substr(0, argument.find('='));
       const CLI::Option* option = find_option(command, name);
       if (option == nullptr)
-        return "no option '" + name + "' of " + full_name(command) + suggestion(name, option_names(command));
+        return "no option '" + name + "' of " + full_name(command) + suggestion(name, option_names(*command));
       const bool has_value = name.size() < argument.size() || option->get_expected_max() == 0;
       if (!has_value) i += static_cast<size_t>(option->get_type_size());
     } else if (const std::vector<std::string> names = command_names(*command); !names.empty()) {

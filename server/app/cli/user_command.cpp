@@ -41,7 +41,7 @@ struct Office {
     throw Error(ErrorKind::not_found, "no user '" + name + "'; ream user list shows them");
   }
   void note(const std::string& action, const std::string& object, const std::string& detail) {
-    access_control.audit.note({"", "command line", to_text(Role::operator_), "", ""}, action, object, detail);
+    access_control.audit.note(command_line_actor(), action, object, detail);
   }
 
   std::shared_ptr<store::Database> database;
