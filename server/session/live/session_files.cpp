@@ -7,6 +7,7 @@
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/log.hpp"
+#include "core/new_id.hpp"
 #include "record/op_log.hpp"
 #include "score/bone_results.hpp"
 #include "score/planned_face.hpp"
@@ -41,6 +42,7 @@ SessionFiles::SessionFiles(const Simulation& simulation, const fs::path& folder,
                            const uint8_t* start_coverage, Trace trace)
     : simulation_(simulation),
       folder_(folder),
+      created_utc_(utc_now()),
       description_(simulation.description()),
       recorder_(std::in_place, record::create_log_file(recording_file(folder)), header_of(simulation),
                 segment_of(simulation, 0, "start"), start_coverage),
@@ -188,6 +190,7 @@ SessionFiles::Results SessionFiles::finish(const sim::LoopHealth& health, const 
   write_json_file(metrics_json(folder_), results.metrics);
   write_json_file(folder_ / "timing.json", results.timing);
   nlohmann::json session = description_;
+  session["created_utc"] = created_utc_;
   if (health.failed_over_tick >= 0) session["failed_over_at_tick"] = health.failed_over_tick;
   if (request_) session.update(session_document(end));
   write_json_file(session_json(folder_), session);

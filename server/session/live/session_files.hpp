@@ -88,6 +88,7 @@ class SessionFiles {
   const std::filesystem::path folder_;
   std::filesystem::path data_;             ///< of a live session
   std::optional<SessionRequest> request_;  ///< of a live session, with its newest labels
+  const std::string created_utc_;          ///< of a headless session; a live one's is in its request
   const nlohmann::json description_;       ///< of the simulation before the first tick
   std::optional<record::TraceCsv> trace_;
   std::optional<record::Recorder> recorder_;  ///< until finished or abandoned
