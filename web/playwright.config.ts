@@ -3,6 +3,7 @@ import { defineConfig } from '@playwright/test';
 // Chromium of the system, with the software WebGL that is fastest without a screen.
 export default defineConfig({
   testDir: '../tests/e2e',
+  globalSetup: '../tests/e2e/kept_demo.ts',
   outputDir: 'test-results',
   timeout: 180_000,
   // What is waited for comes late on a busy machine.

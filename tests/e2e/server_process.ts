@@ -1,10 +1,10 @@
 import { type ChildProcess, spawn, spawnSync } from 'node:child_process';
-import { mkdtempSync, rmSync } from 'node:fs';
+import { cpSync, mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { createInterface } from 'node:readline';
 
-/** The program under test: REAM_BIN, else build/ream; tests/support/fake_stream_server.mjs speaks the same. */
+/** The program under test: REAM_BIN, else build/ream. */
 export const program = resolve(process.env.REAM_BIN ?? join(process.cwd(), '../build/ream'));
 
 /** An account; everybody's password is passwordOf(name). */
@@ -14,6 +14,9 @@ export interface TestUser {
   displayName: string;
 }
 
+/** Names the folder with the demo case that all servers begin with (kept_demo.ts). */
+export const keptDemoVariable = 'REAM_KEPT_DEMO';
+
 export const passwordOf = (name: string) => `password of ${name}`;
 
 /** A `ream serve` of its own, with a data folder of its own. */
@@ -21,8 +24,14 @@ export class ServerProcess {
   private child: ChildProcess | null = null;
   url = '';
 
-  /** The data folder goes away with it. */
-  constructor(private readonly dataFolder = mkdtempSync(join(tmpdir(), 'ream-e2e-'))) {}
+  private readonly dataFolder: string;
+
+  /** The data folder goes away with it. One of its own has the demo case already: making it takes seconds. */
+  constructor(dataFolder?: string) {
+    this.dataFolder = dataFolder ?? mkdtempSync(join(tmpdir(), 'ream-e2e-'));
+    const kept = process.env[keptDemoVariable];
+    if (dataFolder === undefined && kept !== undefined) cpSync(kept, this.dataFolder, { recursive: true });
+  }
 
   /** The first user ends the time in which everybody may do everything. */
   addUser({ name, role, displayName }: TestUser): void {

@@ -1,9 +1,12 @@
 #include "e2e/cli/command_line.hpp"
-#include "support/places.hpp"
+
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 
 #include "core/file.hpp"
+#include "support/places.hpp"
 
 namespace ream::test {
 namespace {
@@ -11,6 +14,33 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr auto longest_run = std::chrono::seconds(240);
+constexpr std::array demo_folders = {"data", "run"};
+
+/// Of this build of the program.
+fs::path kept_demo() {
+  const fs::path program = build_folder() + "/ream";
+  const auto made = fs::last_write_time(program).time_since_epoch().count();
+  return build_folder() + "/tests/short-demo-" + std::to_string(made);
+}
+
+void copy_demo(const fs::path& from, const fs::path& to) {
+  for (const char* name : demo_folders) fs::copy(from / name, to / name, fs::copy_options::recursive);
+}
+
+/// Another test may do the same. Those of earlier builds go.
+void keep_demo(const fs::path& from) {
+  const fs::path kept = kept_demo(), half = kept.string() + "." + std::to_string(::getpid());
+  for (const auto& entry : fs::directory_iterator(kept.parent_path())) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("short-demo-") && !name.starts_with(kept.filename().string()))
+      fs::remove_all(entry.path());
+  }
+  fs::create_directories(half);
+  copy_demo(from, half);
+  std::error_code other_was_first;
+  fs::rename(half, kept, other_was_first);
+  fs::remove_all(half);
+}
 
 }  // namespace
 
@@ -105,6 +135,13 @@ std::string CommandLine::short_script() {
                    "hand": {"start_mm": [0, 0, -1],
                             "force_profile": [{"t_s": 0, "force_n": 30}, {"t_s": 0.3, "force_n": 60}]}})")
       .filename();
+}
+
+void CommandLine::simulate_short_demo() {
+  const std::string script = short_script();
+  if (fs::exists(kept_demo())) return copy_demo(kept_demo(), folder());
+  succeed({"simulate", "--case", "demo", "--script", script, "--backend", "cpu", "--out", "run"});
+  keep_demo(folder());
 }
 
 std::vector<std::string> CommandLine::tree() const {

@@ -46,6 +46,8 @@ class CommandLine : public testing::Test {
   std::string text_of(const std::filesystem::path& relative) const;
   /// Writes short.json: three seconds in which the tool touches bone and removes some.
   std::string short_script();
+  /// Runs it on the demo case: the folder run. All tests of one build share what the first of them makes.
+  void simulate_short_demo();
   /// Relative paths of all files and folders with the files' sizes, leaving out caches below home.
   std::vector<std::string> tree() const;
 

@@ -70,7 +70,7 @@ TEST_F(Femesh, VolumesOfEveryKindAreTheSameMesh) {
 
 /// CT to reamed bone to finite elements: the session's mesh has lost what was reamed.
 TEST_F(Femesh, ASessionIsTheBoneThatItLeft) {
-  succeed({"simulate", "--case", "demo", "--script", short_script(), "--out", "run"});
+  simulate_short_demo();
   const auto before = answer({"femesh", "demo", "--out", "before.inp", "--keep-islands", "--check"});
   const auto after = answer({"femesh", "run", "--out", "after.inp", "--keep-islands", "--check"});
   const double removed_mm3 = json_of("run/metrics.json")["removed_volume_mm3"];

@@ -12,9 +12,7 @@ using nlohmann::json;
 /// What becomes of sessions once they are over: judged, compared, put into tables.
 class Judging : public CommandLine {
  protected:
-  void SetUp() override {
-    succeed({"simulate", "--case", "demo", "--script", short_script(), "--out", "run", "--backend", "cpu"});
-  }
+  void SetUp() override { simulate_short_demo(); }
 
   /// A copy of the run as a session of the data folder.
   void keep(const std::string& id, const json& labels) {

@@ -16,9 +16,7 @@ using nlohmann::json;
 /// What can be done with a recording once the run is over.
 class RecordedSession : public CommandLine {
  protected:
-  void SetUp() override {
-    succeed({"simulate", "--case", "demo", "--script", short_script(), "--out", "run", "--backend", "cpu"});
-  }
+  void SetUp() override { simulate_short_demo(); }
 
   void flip_byte(const fs::path& file, double at_share) {
     std::string bytes = read_text_file(file);

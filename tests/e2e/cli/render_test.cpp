@@ -10,12 +10,12 @@ class RenderedPicture : public CommandLine {
 };
 
 TEST_F(RenderedPicture, IsOfACaseOrOfWhatASessionLeft) {
+  simulate_short_demo();
   succeed({"render", "demo", "--out", "case.png"});
   const std::string whole = picture("case.png");
   EXPECT_EQ(whole.substr(1, 3), "PNG");
   EXPECT_EQ(whole.substr(16, 8), std::string("\0\0\5\0\0\0\3\300", 8)) << "1280 x 960";
 
-  succeed({"simulate", "--case", "demo", "--script", short_script(), "--out", "run", "--backend", "cpu"});
   succeed({"render", "run", "--out", "session.png"});
   EXPECT_NE(picture("session.png"), whole);
   succeed({"render", "run/recording.ream", "--out", "again.png"});

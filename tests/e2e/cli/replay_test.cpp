@@ -8,9 +8,7 @@ namespace fs = std::filesystem;
 
 class Replay : public CommandLine {
  protected:
-  void SetUp() override {
-    succeed({"simulate", "--case", "demo", "--script", short_script(), "--backend", "cpu", "--out", "run"});
-  }
+  void SetUp() override { simulate_short_demo(); }
 };
 
 TEST_F(Replay, TellsWhatWasRecordedAndProvesIt) {

@@ -39,7 +39,7 @@ class SessionReport : public CommandLine {
 };
 
 TEST_F(SessionReport, IsPrintableWithItsLettersAndPageNumbers) {
-  simulate(short_script());
+  simulate_short_demo();
   json session = json_of("run/session.json");
   session["trainee"] = "Zo\u00eb \u00d6zt\u00fcrk";
   write_file_atomically(folder() / "run/session.json", session.dump());
@@ -59,7 +59,7 @@ TEST_F(SessionReport, IsPrintableWithItsLettersAndPageNumbers) {
 }
 
 TEST_F(SessionReport, IsOnePageForTheBrowserToo) {
-  simulate(short_script());
+  simulate_short_demo();
   write("house.json", R"({"name": "House \u201cA\u201d", "version": 4, "pass_points": 10,
       "criteria": [{"metric": "duration_s", "none": 100, "full": 0}]})");
   succeed({"export", "run", "--out", "report.html", "--rubric", "house.json"});
@@ -95,7 +95,7 @@ TEST_F(SessionReport, OfAFewMomentsIsAReport) {
 }
 
 TEST_F(SessionReport, WithoutItsCaseSaysWhatItCannotShow) {
-  simulate(short_script());
+  simulate_short_demo();
   fs::rename(folder() / "data/cases/demo", folder() / "elsewhere");
   json changed = json_of("elsewhere/case.json");
   changed["name"] = "Another";
@@ -114,7 +114,7 @@ TEST_F(SessionReport, WithoutItsCaseSaysWhatItCannotShow) {
 }
 
 TEST_F(SessionReport, SurfacesGoToOtherProgramsInTheirUnits) {
-  simulate(short_script());
+  simulate_short_demo();
   for (const char* name : {"again.stl", "again.glb", "again.ply", "deviation.json"})
     succeed({"export", "run", "--out", name});
   succeed({"export", "run", "--out", "implant.stl", "--format", "implant"});
@@ -141,7 +141,7 @@ TEST_F(SessionReport, SurfacesGoToOtherProgramsInTheirUnits) {
 }
 
 TEST_F(SessionReport, OtherEndingsAreRefusedWithThoseThereAre) {
-  simulate(short_script());
+  simulate_short_demo();
   refuse(2, ".pdf (report for printing)", {"export", "run", "--out", "report.docx"});
   refuse(2, "implant, surface", {"export", "run", "--out", "a.stl", "--format", "bone"});
   refuse(2, "for reports", {"export", "run", "--out", "a.csv", "--rubric", "standard"});
