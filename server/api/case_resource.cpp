@@ -61,20 +61,20 @@ net::Response create_case(const Services& services, const net::Request& request)
   require_one_source(body);
   const case_::Side side = body.at("side") == "left" ? case_::Side::left : case_::Side::right;
   if (const auto copied = optional_in<std::string>(body, "copy_of"))
-    return accepted(services.cases.copy(*copied, side));
+    return accepted(request.caller, services.cases.copy(*copied, side));
   const workup::NewCase wanted{body.at("upload_id"), text_in(body, "id"), text_in(body, "name"),
                                text_in(body, "series_uid"), side};
-  return accepted(services.cases.import(wanted, services.uploads));
+  return accepted(request.caller, services.cases.import(wanted, services.uploads));
 }
 
 net::Response segment_case(const Services& services, const net::Request& request) {
   const auto settings = ct::segmentation_settings_from_json(body_of(request), "the request body");
-  return accepted(services.cases.segment(id_of(request), settings));
+  return accepted(request.caller, services.cases.segment(id_of(request), settings));
 }
 
 net::Response build_case(const Services& services, const net::Request& request) {
   const auto settings = ct::build_settings_from_json(body_of(request), "the request body");
-  return accepted(services.cases.build(id_of(request), settings));
+  return accepted(request.caller, services.cases.build(id_of(request), settings));
 }
 
 net::Response undo_segmentation(const Services& services, const net::Request& request) {

@@ -15,11 +15,18 @@ namespace ream::api {
 using nlohmann::json;
 namespace {
 
-json job_json(const jobs::JobRecord& job) {
+/// A file's name may be a patient's: others than its sender and operators do not learn why an import failed.
+bool may_read_problem(const net::Caller& caller, const jobs::JobRecord& job) {
+  return !job.order.sender || caller.role == "operator" || *job.order.sender == caller.user_id;
+}
+
+json job_json(const net::Caller& caller, const jobs::JobRecord& job) {
   json problem, result;
   if (job.state == jobs::JobState::failed) {
     const int status = net::http_status(job.problem_kind);
-    problem = {{"status", status}, {"title", net::status_title(status)}, {"detail", job.problem}};
+    problem = {{"status", status}, {"title", net::status_title(status)}, {"detail", may_read_problem(caller, job)
+                              ? job.problem
+                              : "the file could not be imported; who sent it and operators see why"}};
   }
   if (job.result)
     result = {{"name", job.result->path.filename().string()},
@@ -60,7 +67,7 @@ net::Response list_jobs(const Services& services, const net::Request& request) {
     if (may_see_job(services, request.caller, job) && fits(request, "case_id", job.order.case_id) &&
         fits(request, "session_id", job.order.session_id) && fits(request, "kind", job.order.kind) &&
         fits(request, "state", to_text(job.state)))
-      list.push_back(job_json(job));
+      list.push_back(job_json(request.caller, job));
   return page_of(request, "jobs", std::move(list), "-number");
 }
 
@@ -82,17 +89,17 @@ net::Response get_job_result(const Services& services, const net::Request& reque
 }
 
 net::Response get_job(const Services& services, const net::Request& request) {
-  return net::json_response(200, job_json(seen_job(services, request)));
+  return net::json_response(200, job_json(request.caller, seen_job(services, request)));
 }
 
 net::Response cancel_job(const Services& services, const net::Request& request) {
-  return net::json_response(202, job_json(services.jobs.cancel(seen_job(services, request).id)));
+  return net::json_response(202, job_json(request.caller, services.jobs.cancel(seen_job(services, request).id)));
 }
 
 }  // namespace
 
-net::Response accepted(const jobs::JobRecord& job) {
-  net::Response response = net::json_response(202, job_json(job));
+net::Response accepted(const net::Caller& caller, const jobs::JobRecord& job) {
+  net::Response response = net::json_response(202, job_json(caller, job));
   response.headers.emplace_back("Location", "/api/v1/jobs/" + job.id);
   return response;
 }

@@ -20,7 +20,7 @@ nlohmann::json user_json(const access::User& user);
 /// 201 with the new thing and where it is.
 net::Response created(const std::string& where, const nlohmann::json& body);
 /// 202 with the job and where to ask about it.
-net::Response accepted(const jobs::JobRecord& job);
+net::Response accepted(const net::Caller& caller, const jobs::JobRecord& job);
 /// A table to be saved under the file's name.
 net::Response csv_response(const session::ExportTable& table, const std::string& file);
 /// 204.

@@ -104,7 +104,7 @@ net::Response begin_rescoring(const Services& services, const net::Request& requ
   services.audit(request, "session.rescore", "",
                  std::to_string(all.ids.size()) + " sessions by " + all.judge.rubric_id + "@" +
                      std::to_string(all.judge.rubric.version));
-  return accepted(services.jobs.submit_file(
+  return accepted(request.caller, services.jobs.submit_file(
       {"rescoring"}, [all = std::move(all)](const fs::path& folder, const Progress& progress) {
         const json report = rescore_all(all, progress);
         write_file_atomically(folder / "rescoring.json", report.dump(2) + "\n");

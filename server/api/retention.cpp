@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <ctime>
+#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/json.hpp"
 #include "core/log.hpp"
 
 namespace ream::api {
@@ -17,16 +20,18 @@ constexpr std::chrono::milliseconds again_after = std::chrono::minutes(1);
 /// A clock that is corrected by more than this was wrong; the day after is too early to trust it.
 constexpr std::chrono::minutes even_within{10};
 constexpr std::chrono::hours trusted_after{24};
+/// Longer than this a server may well be off, but then a day more does no harm.
+constexpr std::chrono::hours off_at_most{48};
 constexpr size_t always_may_go = 20;
 
 std::string days_text(int days) { return std::to_string(days) + (days == 1 ? " day" : " days"); }
 
+constexpr const char* until_trusted = "old sessions are deleted again when it has gone evenly for a day";
+
 std::string moved_text(std::chrono::nanoseconds by) {
   const auto minutes = std::chrono::duration_cast<std::chrono::minutes>(by).count();
-  return "the clock was moved by " + std::to_string(minutes) +
-         " minutes while the server ran; old sessions are deleted again when it has gone evenly for a day, "
-         "or "
-         "after a restart";
+  return "the clock was moved by " + std::to_string(minutes) + " minutes while the server ran; " +
+         until_trusted;
 }
 
 }  // namespace
@@ -64,20 +69,50 @@ std::string Retention::held() const {
   return held_;
 }
 
+void Retention::distrust_since(std::chrono::nanoseconds running, const std::string& why) {
+  doubted_at_ = running;
+  reason_ = why;
+  log::warn(reason_);
+}
+
+/// Empty: there is nothing against the clock.
+std::string Retention::doubt_at_start(UtcMoment wall) const {
+  std::error_code failed;
+  if (rules_.clock_file.empty() || !std::filesystem::exists(rules_.clock_file, failed)) return {};
+  std::string trusted_utc;
+  try {
+    trusted_utc = read_json_file(rules_.clock_file).at("trusted_utc").get<std::string>();
+    const auto by = wall - utc_moment(trusted_utc);
+    if (by <= off_at_most && by >= -even_within) return {};
+  } catch (const std::exception& damaged) {
+    return rules_.clock_file.string() + " cannot be read (" + damaged.what() + "); " + until_trusted;
+  }
+  return "the clock says " + ream::utc_text(wall) + " at the start and was right until " + trusted_utc +
+         "; unless the server was off for so long, set it; " + until_trusted;
+}
+
+void Retention::remember(UtcMoment wall) const {
+  if (rules_.clock_file.empty()) return;
+  try {
+    write_json_file(rules_.clock_file, {{"trusted_utc", ream::utc_text(wall)}});
+  } catch (const Error& failure) {
+    log::warn(std::string("until when the clock was right cannot be kept: ") + failure.what());
+  }
+}
+
 bool Retention::clock_is_even() {
   const ClockReading now{rules_.now(), rules_.running()};
-  if (last_reading_) {
+  if (!last_reading_) {
+    if (const std::string doubt = doubt_at_start(now.wall); !doubt.empty()) distrust_since(now.running, doubt);
+  } else {
     const auto by =
         std::chrono::nanoseconds(now.wall - last_reading_->wall) - (now.running - last_reading_->running);
-    if (std::chrono::abs(by) > even_within) {
-      moved_at_ = now.running;
-      reason_ = moved_text(by);
-      log::warn(reason_);
-    }
+    if (std::chrono::abs(by) > even_within) distrust_since(now.running, moved_text(by));
   }
   last_reading_ = now;
-  if (moved_at_ && now.running - *moved_at_ >= trusted_after) moved_at_.reset();
-  return !moved_at_;
+  if (doubted_at_ && now.running - *doubted_at_ >= trusted_after) doubted_at_.reset();
+  if (!doubted_at_) remember(now.wall);
+  return !doubted_at_;
 }
 
 bool Retention::may_go(size_t count, size_t of, const std::string& what) {

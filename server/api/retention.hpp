@@ -1,5 +1,6 @@
 #pragma once
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -29,6 +30,9 @@ struct RetentionRules {
   WallClock now = machine_clock();
   /// Time that nobody sets, suspension included: what the wall clock is held against.
   std::function<std::chrono::nanoseconds()> running = time_since_boot;
+  /// Keeps until when the wall clock has been trusted, so that one that is wrong at a start is found out; empty:
+  /// a start trusts it.
+  std::filesystem::path clock_file = {};
   /// Most of the sessions, and of sessions and trash together, that may go in one look. Up to 20 always may.
   int max_at_once_percent = 50;
 };
@@ -50,7 +54,8 @@ struct RetentionTools {
 ///
 /// Time decides what goes, and a clock may be wrong. So nothing is deleted or erased because of its age while
 /// the wall clock has moved against the time the machine has been on by more than ten minutes within the last
-/// day, nor when more than RetentionRules::max_at_once_percent would go at once: held() says so then, and
+/// day, nor within a day of a start that the wall clock has more than two days after, or ten minutes before,
+/// the time until which it was trusted, nor when more than RetentionRules::max_at_once_percent would go at once: held() says so then, and
 /// the log. What is erased as nothing is to be kept is no matter of time.
 class Retention {
  public:
@@ -70,6 +75,9 @@ class Retention {
  private:
   void look();
   bool clock_is_even();
+  void distrust_since(std::chrono::nanoseconds running, const std::string& why);
+  std::string doubt_at_start(UtcMoment wall) const;
+  void remember(UtcMoment wall) const;
   /// Whether so many of so many may go; notes why not.
   bool may_go(size_t count, size_t of, const std::string& what);
   std::vector<session::SessionRecord> due_sessions(size_t& all);
@@ -87,7 +95,7 @@ class Retention {
   const RetentionRules rules_;
   const RetentionTools tools_;
   std::optional<ClockReading> last_reading_;
-  std::optional<std::chrono::nanoseconds> moved_at_;  ///< by the time of running; none: the clock goes evenly
+  std::optional<std::chrono::nanoseconds> doubted_at_;  ///< by the time of running; none: the clock is trusted
   std::string reason_;                                ///< of this look
   mutable std::mutex mutex_;
   std::string held_;

@@ -6,6 +6,7 @@
 #include "app/data_snapshot.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/leftovers.hpp"
 #include "core/temporary_file.hpp"
 #include "core/utc.hpp"
 #include "core/version.hpp"
@@ -28,7 +29,7 @@ void make_folder(const fs::path& folder) {
 /// In a folder of its own until it is whole, where nobody else may look at it.
 void write_private_zip(const fs::path& file, const std::vector<store::ArchiveEntry>& entries,
                        const Progress& progress) {
-  const TemporaryFolder folder(file);
+  const TemporaryFolder folder(unfinished_beside(file));
   const fs::path made = folder.path() / "backup.zip";
   store::write_zip(made, entries, progress);
   std::error_code failed;

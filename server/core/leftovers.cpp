@@ -3,8 +3,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cctype>
 #include <functional>
 #include <regex>
 #include <vector>
@@ -16,6 +14,8 @@
 namespace ream {
 namespace fs = std::filesystem;
 namespace {
+
+constexpr const char* unfinished = ".ream-unfinished";
 
 using IsLeftover = std::function<bool(const std::string& name)>;
 
@@ -77,12 +77,11 @@ size_t remove_leftovers(const fs::path& data) {
   return none ? removed : removed + remove_from(system, temporary_folder_of_system);
 }
 
+fs::path unfinished_beside(const fs::path& file) { return fs::absolute(file).parent_path() / unfinished; }
+
 size_t remove_leftovers_beside(const fs::path& file) {
-  const std::string stem = file.filename().string() + '.';
-  return remove_from(fs::absolute(file).parent_path(), [&](const std::string& name) {
-    return name.size() == stem.size() + 6 && name.starts_with(stem) &&
-           std::all_of(name.begin() + static_cast<std::ptrdiff_t>(stem.size()), name.end(),
-                       [](unsigned char c) { return std::isalnum(c) != 0; });
+  return remove_from(fs::absolute(file).parent_path(), [](const std::string& name) {
+    return name.starts_with(unfinished) && temporary_folder_of_data(name);
   });
 }
 

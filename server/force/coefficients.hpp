@@ -19,7 +19,7 @@ inline constexpr FeedLaw cancellous_feed_law{-0.34, 0.42};  ///< thesis eq. 5.2,
 inline constexpr double cartilage_feed_mm_s = 0.40;
 
 /// The laws reach zero inside the density range (2.20 and 1.235 g/cc); no bone is slower than this at the
-/// reference thrust. Engineering choice (science.md finding 3), mm/s.
+/// reference thrust. Engineering choice, mm/s.
 inline constexpr double min_feed_mm_s = 0.005;
 
 /// Simulated thrust below which the lips only rub, N. Engineering choice.

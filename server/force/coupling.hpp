@@ -70,7 +70,7 @@ struct Sliding {
 void add_friction(const Sliding& sliding, Resistance& resistance) noexcept;
 
 /// What an admittance device lets the hand move where nothing is touched: a mass with a little damping, hand
-/// side. Engineering choices, near the least that such devices render (science.md 1.2).
+/// side. Engineering choices, near the least that such devices render.
 struct VirtualMass {
   double mass_kg = 2.0;
   double damping_n_s_mm = 0.01;

@@ -5,8 +5,8 @@
 namespace ream::force {
 
 /// Keeps a hand from being met by a sudden force when rendering begins: nothing is rendered until the wanted
-/// force has been small for a few ticks, then its gain rises evenly to one (practice of CHAI3D's tools,
-/// science.md 1.3).
+/// force has been small for a few ticks, then its gain rises evenly to one (practice of CHAI3D's
+/// tools).
 class StartUpRamp {
  public:
   static constexpr double small_force_n = 0.2;

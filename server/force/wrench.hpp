@@ -24,7 +24,7 @@ struct DeviceLimits {
 
 /// Handle speeds that the slew limits must let pass: at half a metre a second a spring of stiffness K gains
 /// K x 0.5 mm in a tick, and a wrist turns at 5 rad/s. Faster changes of contact force are steps, not bone.
-/// Engineering choices (science.md 1.3 gives 0.05 to 0.1 N for soft devices).
+/// Engineering choices: soft devices want 0.05 to 0.1 N.
 inline constexpr double slew_speed_mm_s = 500.0, slew_speed_rad_s = 5.0;
 
 /// Limits with the slew that springs of these stiffnesses need.

@@ -8,6 +8,7 @@
 #include "core/text.hpp"
 #include "ct/read/ct_file_names.hpp"
 #include "reader/slice_stack.hpp"
+#include "reader/standard_terms.hpp"
 
 namespace ream::reader {
 namespace fs = std::filesystem;
@@ -53,12 +54,6 @@ bool holds_an_image(const fs::path& path, const DicomFile& file, int& imageless)
   return file.state == DicomState::whole;
 }
 
-/// A word of the standard's for modalities and kinds of values is short; what is longer may be of a person.
-std::string short_word(const std::string& word) {
-  constexpr size_t max_word_length = 16;
-  return word.size() > max_word_length ? "something else" : word;
-}
-
 /// Looks at every file below a folder, or at one file. Hidden files, files that are not DICOM and DICOM
 /// without pictures are passed over. Errors: invalid_input (names the file) for a file that is cut short or
 /// says impossible things; cancelled.
@@ -74,7 +69,7 @@ DicomScan scan_dicom(const fs::path& path, const Progress& progress) {
     if (!holds_an_image(files[i], file, imageless)) continue;
     for (DicomSlice& slice : describe_dicom(files[i], file)) {
       if (slice.modality != "CT") {
-        modalities.insert(short_word(slice.modality));
+        modalities.insert(standard_term(slice.modality));
         ++other;
       } else if (slice.localizer) {
         ++localizers;
@@ -130,14 +125,6 @@ const Series& chosen(const DicomScan& scan, const std::string& uid, const fs::pa
   return *found;
 }
 
-/// Hounsfield units by another name than the standard's HU: "hu", "Houndsfield Unit", "[hnsf'U]" are written.
-bool means_hu(const std::string& value_type) {
-  std::string letters = lower(value_type);
-  std::erase_if(letters, [](char c) { return c < 'a' || c > 'z'; });
-  const bool spelt_out = letters.starts_with("houn") && letters.find('f') != std::string::npos;
-  return value_type != "HU" && (letters == "hu" || letters == "hnsfu" || spelt_out);
-}
-
 void warn_of_burnt_in(HuVolume& volume, const std::vector<DicomSlice>& slices) {
   const auto count =
       std::count_if(slices.begin(), slices.end(), [](const DicomSlice& slice) { return slice.burnt_in; });
@@ -152,10 +139,10 @@ void warn_of_value_type(HuVolume& volume, const DicomSlice& slice) {
   if (slice.value_type == "unscaled")
     volume.warnings.push_back("the slices do not say how to scale their values; they were taken as HU");
   else if (means_hu(slice.value_type))
-    volume.warnings.push_back("the slices call their values '" + short_word(slice.value_type) +
+    volume.warnings.push_back("the slices call their values '" + known_spelling_of_hu(slice.value_type) +
                               "'; this was taken as HU");
   else if (!slice.value_type.empty() && slice.value_type != "HU" && slice.value_type != "US")
-    volume.warnings.push_back("the slices hold " + short_word(slice.value_type) +
+    volume.warnings.push_back("the slices hold " + standard_term(slice.value_type) +
                               ", not HU; thresholds and densities will not fit");
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "reader/standard_terms.hpp"
 
 namespace ream::reader {
 namespace fs = std::filesystem;
@@ -16,7 +17,6 @@ constexpr double room_bytes = 8 << 20;  // a small packed file may still be one 
 constexpr double max_packing = 1000.0;  // beyond any coder on a real picture
 constexpr double max_frames = 1e5;
 constexpr double perpendicular_tolerance = 1e-3;
-constexpr size_t max_term_length = 16;  // of the standard's code strings
 
 constexpr uint32_t tag_of(uint16_t group, uint16_t element) { return uint32_t{group} << 16 | element; }
 
@@ -194,7 +194,7 @@ DicomSlice described(const fs::path& file, const DicomSet& set, int frame, bool 
   slice.is_signed = whole_number(set, 0x0028, 0x0103).value_or(0) == 1;
   const std::string colours = text_of(set, 0x0028, 0x0004);
   if (whole_number(set, 0x0028, 0x0002).value_or(1) != 1 || !(colours.empty() || colours.starts_with("MONO")))
-    slice.unusable = "in colour (" + readable(colours.substr(0, max_term_length), "") + ")";
+    slice.unusable = "in colour (" + standard_term(colours) + ")";
   else if ((bits != 8 && bits != 16 && bits != 32) || slice.bits_stored < 1 || slice.bits_stored > bits)
     slice.unusable = "of " + std::to_string(bits) + " bits a pixel";
   else if (slice.rows < 1 || slice.columns < 1 || slice.rows > max_side || slice.columns > max_side)

@@ -9,6 +9,7 @@
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "record/trace_columns.hpp"
 
 namespace ream::record {
 namespace {
@@ -52,20 +53,19 @@ class Row {
 }  // namespace
 
 const std::string& TraceCsv::header_line() {
-  static const std::string line =
-      "t_s,handle_x_mm,handle_y_mm,handle_z_mm,handle_qw,handle_qx,handle_qy,handle_qz,"
-      "tool_x_mm,tool_y_mm,tool_z_mm,tool_qw,tool_qx,tool_qy,tool_qz,spindle_on,paused,"
-      "thrust_n,hand_force_x_n,hand_force_y_n,hand_force_z_n,torque_n_mm,spindle_torque_n_mm,guide_force_n,"
-      "vibration_g,hand_weakened,"
-      "feed_rate_mm_s,density_g_cc,"
-      "share_cancellous,share_cortical,share_cartilage,engaged_points,removed_volume_mm3,"
-      "bone_x_mm,bone_y_mm,bone_z_mm,bone_qw,bone_qx,bone_qy,bone_qz,"
-      "spindle_speed_rad_s,stalled,irrigating,surface_temperature_c";
+  static const std::string line = [] {
+    std::string names;
+    for (const TraceColumn& column : trace_columns()) names.append(names.empty() ? "" : ",").append(column.name);
+    return names;
+  }();
   return line;
 }
 
-TraceCsv::TraceCsv(const std::filesystem::path& path, double voxel_volume_mm3)
-    : path_(path), temporary_(path.string() + ".tmp"), voxel_volume_mm3_(voxel_volume_mm3) {
+TraceCsv::TraceCsv(const std::filesystem::path& path, double voxel_volume_mm3, const Pose& plan_from_world)
+    : path_(path),
+      temporary_(path.string() + ".tmp"),
+      voxel_volume_mm3_(voxel_volume_mm3),
+      plan_from_world_(plan_from_world) {
   file_ = std::fopen(temporary_.c_str(), "wb");
   if (file_ == nullptr) fail_to_write_trace(path_);
   std::fprintf(file_, "%s\n", header_line().c_str());
@@ -96,6 +96,8 @@ void TraceCsv::add(const TickReport& r) {
       .add(static_cast<int64_t>(r.stalled))
       .add(static_cast<int64_t>(r.drive.irrigating));
   row.add(r.surface_temperature_c);
+  const Pose bone_from_tool = r.world_from_bone_rest.inverse() * r.world_from_tool;
+  row.add((plan_from_world_ * bone_from_tool).translation_mm.z());
   row.write(file_);
 }
 

@@ -7,12 +7,13 @@
 
 namespace ream::record {
 
-/// trace.csv, one row a tick; column names carry their units. Written to a temporary name and renamed by
+/// trace.csv, one row a tick; trace_columns() says what is in it. Written to a temporary name and renamed by
 /// finish(), so an interrupted run leaves no half trace.
 class TraceCsv {
  public:
-  /// Throws Error io when the file cannot be created.
-  TraceCsv(const std::filesystem::path& path, double voxel_volume_mm3);
+  /// `plan_from_world`: of the bone where the case has it, z along the planned axis. Throws Error io when the
+  /// file cannot be created.
+  TraceCsv(const std::filesystem::path& path, double voxel_volume_mm3, const Pose& plan_from_world);
   ~TraceCsv();
   TraceCsv(const TraceCsv&) = delete;
   TraceCsv& operator=(const TraceCsv&) = delete;
@@ -29,6 +30,7 @@ class TraceCsv {
   std::filesystem::path path_, temporary_;
   std::FILE* file_ = nullptr;
   double voxel_volume_mm3_;
+  Pose plan_from_world_;
   int64_t coverage_removed_ = 0;
 };
 

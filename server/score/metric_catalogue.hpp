@@ -73,7 +73,7 @@ const Metric* find_metric(std::string_view key);
 /// volumes) and for bands `between`.
 std::optional<Better> aim_of(const Metric& metric);
 
-/// As science.md marks them: "S", "M", "E", "T".
+/// In one letter, as metrics.schema.json has it: "S", "M", "E", "T".
 std::string_view to_text(Evidence evidence);
 
 }  // namespace ream::score

@@ -64,7 +64,7 @@ class LoopGuard {
 /// What may still be done with what a device said, by the age of it.
 device::LinkState link_state(double age_ms, const device::StaleLimits& limits) noexcept;
 
-/// Stands between a device and the step (science.md 1.3). Up to StaleLimits::hold_ms the last pose is as good
+/// Stands between a device and the step. Up to StaleLimits::hold_ms the last pose is as good
 /// as a new one, and up to fade_ms it is held. From there on the input is stale: the force on the hand fades
 /// out, and the hand's own force counts for nothing. From lost_ms on the session rests, as after a pause,
 /// until a pose comes that is not stale.

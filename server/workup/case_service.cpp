@@ -108,7 +108,9 @@ jobs::JobRecord CaseService::import(const NewCase& wanted, UploadStore& uploads)
   const std::string name = wanted.name.empty() ? id : wanted.name;
   if (jobs_.busy(id)) throw Error(ErrorKind::conflict, "a case '" + id + "' is being made; wait for it");
   const auto taken = std::make_shared<TakenUpload>(uploads.take(wanted.upload_id));
-  return jobs_.submit({"import", id}, [this, taken, id, name, wanted](const Progress& progress) {
+  jobs::JobOrder order{"import", id};
+  order.sender = upload.owner;
+  return jobs_.submit(order, [this, taken, id, name, wanted](const Progress& progress) {
     const ct::HuVolume volume = naming_as_sent(taken->file(), [&] {
       return read_upload(taken->file(), wanted.series_uid, part_of(progress, 0.0, read_share));
     });

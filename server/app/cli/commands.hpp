@@ -33,6 +33,7 @@ void add_doctor_command(CLI::App& app, GlobalOptions& options, std::shared_ptr<c
 void add_score_command(CLI::App& app, GlobalOptions& options);
 void add_benchmark_command(CLI::App& app, GlobalOptions& options);
 void add_export_command(CLI::App& app, GlobalOptions& options);
+void add_codebook_command(CLI::App& app, GlobalOptions& options);
 void add_render_command(CLI::App& app, GlobalOptions& options);
 void add_list_command(CLI::App& app, GlobalOptions& options);
 void add_replay_command(CLI::App& app, GlobalOptions& options);

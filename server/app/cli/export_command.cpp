@@ -8,6 +8,7 @@
 #include "app/cli/terminal_progress.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
+#include "core/leftovers.hpp"
 #include "score/rubric_store.hpp"
 #include "session/export/export_formats.hpp"
 #include "session/simulation/recorded_session.hpp"
@@ -39,6 +40,7 @@ void export_session(const ExportOptions& options, const GlobalOptions& global) {
     throw Error(ErrorKind::usage,
                 "--rubric and --benchmark are for reports, and " + options.out.string() + " will be none");
   catch_interrupts();
+  remove_leftovers_beside(options.out);
   const TerminalProgress progress;
   format.write(request_of(options, data_folder(global.data)), options.out, std::cref(progress));
   if (global.json)

@@ -44,6 +44,7 @@ void add_commands(CLI::App& app, ream::app::GlobalOptions& global) {
   add_score_command(app, global);
   add_benchmark_command(app, global);
   add_export_command(app, global);
+  add_codebook_command(app, global);
   add_render_command(app, global);
   add_list_command(app, global);
   add_replay_command(app, global);

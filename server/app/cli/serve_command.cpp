@@ -124,6 +124,7 @@ void serve(const ServeOptions& options, const GlobalOptions& global) {
   server_options.engine = std::make_shared<session::SimulationEngine>(context);
   server_options.default_device = options.device;
   server_options.retention.keep_sessions_days = options.keep_sessions_days;
+  server_options.retention.clock_file = context.data / "clock.json";
   server_options.retention.keep_deleted_days = options.keep_deleted_days;
   server_options.retention.max_at_once_percent = options.delete_at_once_percent;
   server_options.sessions.unstarted = std::chrono::minutes(options.end_unstarted_minutes);

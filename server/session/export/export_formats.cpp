@@ -21,6 +21,8 @@
 #include "session/simulation/find_case.hpp"
 #include "session/simulation/reamed_pictures.hpp"
 #include "session/simulation/recorded_session.hpp"
+#include "session/simulation/recorded_setup.hpp"
+#include "sim/model.hpp"
 
 namespace ream::session {
 namespace {
@@ -41,7 +43,8 @@ void write_trace(const ExportRequest& request, const fs::path& out, const Progre
   const voxel::VoxelGrid grid = recording.grid();
   const uint32_t first = tick_at(part.from_s);
   const uint32_t end = std::min(part.to_s ? tick_at(*part.to_s) : UINT32_MAX, recording.tick_count());
-  record::TraceCsv trace(out, grid.voxel_volume_mm3());
+  record::TraceCsv trace(out, grid.voxel_volume_mm3(),
+                         sim::world_from_plan(recorded_plan(recording)).inverse());
   recording.for_each_tick(0, end, [&](const record::ops::Tick& tick) {
     if (tick.tick % ticks_between_looks == 0)
       progress(static_cast<double>(tick.tick) / std::max(end, 1u), "writing rows");

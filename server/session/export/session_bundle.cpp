@@ -10,6 +10,7 @@
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/leftovers.hpp"
 #include "core/hash.hpp"
 #include "core/log.hpp"
 #include "core/temporary_file.hpp"
@@ -115,7 +116,7 @@ void write_session_bundle(const fs::path& recording_file, const std::string& cas
   if (const std::string& damage = recording.log().damage(); !damage.empty()) log::warn(damage);
   case_of(recording, case_name, data);
   const fs::path folder = fs::absolute(recording_file).parent_path();
-  const TemporaryFolder made(zip);
+  const TemporaryFolder made(unfinished_beside(zip));
   const nlohmann::json bundle = {{"format", format},
                                  {"revision", revision},
                                  {"session", session_id(folder, recording)},

@@ -49,7 +49,8 @@ SessionFiles::SessionFiles(const Simulation& simulation, const fs::path& folder,
       metrics_(simulation.bone_case.bone.grid.voxel_volume_mm3(),
                simulation.model.world_from_plan.inverse()) {
   if (trace == Trace::written)
-    trace_.emplace(folder / "trace.csv", simulation.bone_case.bone.grid.voxel_volume_mm3());
+    trace_.emplace(folder / "trace.csv", simulation.bone_case.bone.grid.voxel_volume_mm3(),
+                   simulation.model.world_from_plan.inverse());
 }
 
 SessionFiles::SessionFiles(const Simulation& simulation, const fs::path& folder,

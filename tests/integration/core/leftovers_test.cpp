@@ -114,13 +114,13 @@ TEST_F(LeftoversTest, NothingElseIsTouched) {
 }
 
 TEST_F(LeftoversTest, OnesBesideAFileAreRemovedBesideItOnly) {
-  folder.write("backup.zip.AbCdEf/backup.zip", "half");
-  folder.write("backup.zip.AbCdE/backup.zip", "somebody's own");
+  folder.write(".ream-unfinished.AbCdEf/backup.zip", "half");
+  folder.write(".ream-unfinished.AbCdE/backup.zip", "somebody's own");
   folder.write("other.zip.AbCdEf/other.zip", "somebody's own");
   folder.write("backup.zip", "whole");
   EXPECT_EQ(remove_leftovers_beside(data / "backup.zip"), 1u);
-  EXPECT_FALSE(fs::exists(data / "backup.zip.AbCdEf"));
-  EXPECT_TRUE(fs::exists(data / "backup.zip.AbCdE"));
+  EXPECT_FALSE(fs::exists(data / ".ream-unfinished.AbCdEf"));
+  EXPECT_TRUE(fs::exists(data / ".ream-unfinished.AbCdE"));
   EXPECT_TRUE(fs::exists(data / "other.zip.AbCdEf"));
   EXPECT_TRUE(fs::exists(data / "backup.zip"));
 }

@@ -151,6 +151,53 @@ TEST_F(RetentionTest, NothingGoesWhenTooMuchWouldGoAtOnce) {
   EXPECT_EQ(held, "");
 }
 
+TEST_F(RetentionTest, AClockThatIsAheadAtAStartIsNotTrustedForADayOfRunning) {
+  rules.clock_file = folder.path() / "clock.json";
+  rules.keep_sessions_days = 30;
+  std::atomic<std::chrono::hours> on{std::chrono::hours(0)};
+  rules.running = [&] { return std::chrono::nanoseconds(on.load()); };
+  rules.now = [&] {
+    ++asked;
+    return machine_clock()() + on.load() + ahead.load();
+  };
+  put("old", 20);
+  look(30, 10);
+  EXPECT_EQ(held, "");
+  // Neither by one start nor by the next one.
+  for (int start = 0; start < 2; ++start) {
+    look(30, 10, std::chrono::hours(24 * 365));
+    EXPECT_TRUE(is_there("old"));
+    EXPECT_NE(held.find("at the start and was right until"), std::string::npos) << held;
+  }
+  look(30, 10);
+  EXPECT_EQ(held, "") << "it is right again";
+  look(30, 10, std::chrono::hours(-1));
+  EXPECT_NE(held, "") << "a clock that is behind";
+
+  // The server was off for so long: after a day it does its work.
+  ahead = std::chrono::hours(24 * 365);
+  Retention retention(rules, tools());
+  retention.begin();
+  look_again();
+  EXPECT_TRUE(is_there("old"));
+  on = std::chrono::hours(25);
+  while (is_there("old")) {
+    on = on.load() + std::chrono::hours(24);
+    look_again();
+  }
+  look_again();
+  EXPECT_EQ(retention.held(), "");
+  retention.stop();
+}
+
+TEST_F(RetentionTest, WhatKeepsTheClockMayBeDamaged) {
+  rules.clock_file = folder.write("clock.json", "{");
+  put("old", 40);
+  look(30, 10);
+  EXPECT_TRUE(is_there("old"));
+  EXPECT_NE(held.find("clock.json"), std::string::npos) << held;
+}
+
 TEST_F(RetentionTest, NothingGoesForADayAfterTheClockWasMoved) {
   std::atomic<std::chrono::hours> on{std::chrono::hours(0)}, moved{std::chrono::hours(0)};
   rules.running = [&] { return std::chrono::nanoseconds(on.load()); };

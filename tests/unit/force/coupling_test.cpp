@@ -21,8 +21,7 @@ Resistance axial(double resistance_n_s_mm) {
 }
 
 TEST(Coupling, AxialCreepIsTheMaxwellElement) {
-  // Backward Euler of spring and damper in series: F = K d / (1 + K T / b), motion T F / b (science.md,
-  // finding 1).
+  // Backward Euler of spring and damper in series: F = K d / (1 + K T / b), motion T F / b.
   const CouplingParameters p{2.0, 2000.0, 26.0};
   const double b = 2000.0, k = 52.0, d = 1.0;
   const CouplingStep step = couple(p, axial(b), {0, 0, d, 0, 0, 0}, tick_s);

@@ -8,7 +8,7 @@ namespace {
 TEST(FeedLaw, ReproducesTheThesisEquations) {
   EXPECT_NEAR(empirical_feed_mm_s(1, 1.50), 0.035, 1e-12);
   EXPECT_NEAR(empirical_feed_mm_s(0, 0.55), 0.233, 1e-12);
-  // The two laws cross at 1.069 g/cc (science.md, finding 3).
+  // The two laws cross at 1.069 g/cc.
   EXPECT_NEAR(empirical_feed_mm_s(0, 1.069), empirical_feed_mm_s(1, 1.069), 1e-3);
 }
 

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
 #include <sstream>
 
 #include "core/file.hpp"
+#include "record/trace_columns.hpp"
 #include "support/expect_error.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_folder.hpp"
@@ -20,6 +22,11 @@ std::vector<std::string> split(const std::string& text, char separator) {
   std::istringstream in(text);
   for (std::string part; std::getline(in, part, separator);) parts.push_back(part);
   return parts;
+}
+
+/// A plan 40 mm beside the world's origin whose axis is the world's x.
+Pose plan_from_world() {
+  return Pose{rotation_with_z_along(Vec3(1.0, 0.0, 0.0)), Vec3(40.0, 0.0, 0.0)}.inverse();
 }
 
 /// A trace read back: the numbers of each row by column name.
@@ -46,7 +53,7 @@ TEST(TraceCsv, EveryRowHasAsManyCellsAsTheHeader) {
   const test::TemporaryFolder folder;
   const auto path = folder.path() / "trace.csv";
   std::mt19937 random(test::seed(31));
-  TraceCsv trace(path, voxel_volume_mm3);
+  TraceCsv trace(path, voxel_volume_mm3, plan_from_world());
   for (uint32_t tick = 0; tick < 50; ++tick) trace.add(test::random_report(random, tick));
   trace.add({});
   trace.finish();
@@ -63,7 +70,7 @@ TEST(TraceCsv, NumbersReadBackExactly) {
   std::mt19937 random(test::seed(32));
   std::vector<TickReport> reports;
   for (uint32_t tick = 0; tick < 20; ++tick) reports.push_back(test::random_report(random, tick));
-  TraceCsv trace(path, voxel_volume_mm3);
+  TraceCsv trace(path, voxel_volume_mm3, plan_from_world());
   for (const TickReport& report : reports) trace.add(report);
   trace.finish();
 
@@ -96,10 +103,37 @@ TEST(TraceCsv, NumbersReadBackExactly) {
   }
 }
 
+TEST(TraceCsv, DepthIsAlongThePlannedAxisWithTheBone) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.path() / "trace.csv";
+  TickReport report;
+  report.world_from_tool.translation_mm = Vec3(43.0, 5.0, -7.0);
+  TraceCsv trace(path, voxel_volume_mm3, plan_from_world());
+  trace.add(report);
+  report.world_from_bone_rest.translation_mm = Vec3(2.0, 1.0, 1.0);
+  trace.add(report);
+  // The bone is turned by half a turn about the world's z: what was 3 mm past the entry is 83 mm before it.
+  report.world_from_bone_rest = {rotation_from_quaternion({0.0, 0.0, 0.0, 1.0}), Vec3::Zero()};
+  trace.add(report);
+  trace.finish();
+  const Trace read(path);
+  EXPECT_NEAR(read.at(0, "tool_depth_mm"), 3.0, 1e-9);
+  EXPECT_NEAR(read.at(1, "tool_depth_mm"), 1.0, 1e-9);
+  EXPECT_NEAR(read.at(2, "tool_depth_mm"), -83.0, 1e-9);
+}
+
+TEST(TraceCsv, EveryColumnIsExplainedOnce) {
+  std::set<std::string_view> names;
+  for (const TraceColumn& column : trace_columns()) {
+    EXPECT_TRUE(names.insert(column.name).second) << column.name;
+    EXPECT_TRUE(column.meaning.ends_with(".")) << column.name;
+  }
+}
+
 TEST(TraceCsv, NothingIsLeftWhenNotFinished) {
   const test::TemporaryFolder folder;
   {
-    TraceCsv trace(folder.path() / "trace.csv", voxel_volume_mm3);
+    TraceCsv trace(folder.path() / "trace.csv", voxel_volume_mm3, {});
     trace.add({});
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "trace.csv"));
   }
@@ -109,13 +143,13 @@ TEST(TraceCsv, NothingIsLeftWhenNotFinished) {
 TEST(TraceCsv, UnwritablePlacesAreNamed) {
   const test::TemporaryFolder folder;
   const auto file = folder.write("file", "");
-  test::expect_error(ErrorKind::io, "trace.csv", [&] { TraceCsv(file / "trace.csv", voxel_volume_mm3); });
+  test::expect_error(ErrorKind::io, "trace.csv", [&] { TraceCsv(file / "trace.csv", voxel_volume_mm3, {}); });
   std::filesystem::remove(file);
 
   const auto taken = folder.path() / "trace.csv";
   std::filesystem::create_directory(taken);
   {
-    TraceCsv trace(taken, voxel_volume_mm3);
+    TraceCsv trace(taken, voxel_volume_mm3, {});
     trace.add({});
     test::expect_error(ErrorKind::io, "trace.csv", [&] { trace.finish(); });
   }

@@ -1,4 +1,6 @@
 // Names of uploaded files may be patients': who sees them.
+#include <thread>
+
 #include "wire/contract/access_fixture.hpp"
 
 namespace ream::test {
@@ -36,6 +38,37 @@ TEST_F(UploadNamesTest, OnlyTheSenderAndOperatorsSeeThem) {
         request("POST", "/api/v1/cases", ian, json{{"upload", json::parse(begun.body).at("id")}}.dump())}) {
     EXPECT_GE(refused.status, 400) << refused.body;
     EXPECT_FALSE(is_named(refused)) << refused.body;
+  }
+}
+
+TEST_F(UploadNamesTest, WhyAnImportFailedIsForTheSenderAndOperatorsToo) {
+  options.data_folder = folder.path();
+  start();
+  const Sent olga = token_of(add_user("olga", access::Role::operator_)),
+             ina = token_of(add_user("ina", access::Role::instructor)),
+             ian = token_of(add_user("ian", access::Role::instructor));
+  const std::string damaged = "NRRD0004\nDOE Jane\n";
+  const HttpReply begun = request("POST", "/api/v1/uploads", ina,
+                                  json{{"name", "DOE_Jane.nrrd"}, {"bytes", damaged.size()}}.dump());
+  ASSERT_EQ(begun.status, 201) << begun.body;
+  ASSERT_EQ(request("PUT", begun.headers.at("location") + "?offset=0",
+                    with(ina, "Content-Type", "application/octet-stream"), damaged)
+                .status,
+            200);
+  const HttpReply ordered = request(
+      "POST", "/api/v1/cases", ina,
+      json{{"upload_id", json::parse(begun.body).at("id")}, {"side", "right"}}.dump());
+  ASSERT_EQ(ordered.status, 202) << ordered.body;
+  const std::string job = ordered.headers.at("location");
+  const auto state = [&] { return json::parse(request("GET", job, olga).body).at("state"); };
+  while (state() == "waiting" || state() == "running") std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  ASSERT_EQ(state(), "failed");
+  for (const auto& [as, sees] : {std::pair{olga, true}, {ina, true}, {ian, false}}) {
+    const HttpReply alone = request("GET", job, as), list = request("GET", "/api/v1/jobs", as);
+    expect_as_described("GET", "/api/v1/jobs/{id}", 200, alone);
+    for (const HttpReply& reply : {alone, list})
+      EXPECT_EQ(reply.body.find("DOE") != std::string::npos, sees) << reply.body;
+    EXPECT_FALSE(json::parse(alone.body).at("problem").at("detail").get<std::string>().empty());
   }
 }
 
