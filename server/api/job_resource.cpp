@@ -24,7 +24,9 @@ json job_json(const net::Caller& caller, const jobs::JobRecord& job) {
   json problem, result;
   if (job.state == jobs::JobState::failed) {
     const int status = net::http_status(job.problem_kind);
-    problem = {{"status", status}, {"title", net::status_title(status)}, {"detail", may_read_problem(caller, job)
+    problem = {{"status", status},
+               {"title", net::status_title(status)},
+               {"detail", may_read_problem(caller, job)
                               ? job.problem
                               : "the file could not be imported; who sent it and operators see why"}};
   }
@@ -93,7 +95,8 @@ net::Response get_job(const Services& services, const net::Request& request) {
 }
 
 net::Response cancel_job(const Services& services, const net::Request& request) {
-  return net::json_response(202, job_json(request.caller, services.jobs.cancel(seen_job(services, request).id)));
+  return net::json_response(202,
+                            job_json(request.caller, services.jobs.cancel(seen_job(services, request).id)));
 }
 
 }  // namespace

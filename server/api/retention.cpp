@@ -72,7 +72,6 @@ std::string Retention::held() const {
 void Retention::distrust_since(std::chrono::nanoseconds running, const std::string& why) {
   doubted_at_ = running;
   reason_ = why;
-  log::warn(reason_);
 }
 
 /// Empty: there is nothing against the clock.
@@ -103,7 +102,8 @@ void Retention::remember(UtcMoment wall) const {
 bool Retention::clock_is_even() {
   const ClockReading now{rules_.now(), rules_.running()};
   if (!last_reading_) {
-    if (const std::string doubt = doubt_at_start(now.wall); !doubt.empty()) distrust_since(now.running, doubt);
+    if (const std::string doubt = doubt_at_start(now.wall); !doubt.empty())
+      distrust_since(now.running, doubt);
   } else {
     const auto by =
         std::chrono::nanoseconds(now.wall - last_reading_->wall) - (now.running - last_reading_->running);

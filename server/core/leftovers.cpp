@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/data_folder.hpp"
+#include "core/error.hpp"
 #include "core/file_lock.hpp"
 #include "core/temporary_file.hpp"
 
@@ -77,7 +78,15 @@ size_t remove_leftovers(const fs::path& data) {
   return none ? removed : removed + remove_from(system, temporary_folder_of_system);
 }
 
-fs::path unfinished_beside(const fs::path& file) { return fs::absolute(file).parent_path() / unfinished; }
+fs::path unfinished_beside(const fs::path& file) {
+  const fs::path folder = fs::absolute(file).parent_path();
+  std::error_code failed;
+  if (!fs::is_directory(folder, failed)) {
+    if (!failed) failed = std::make_error_code(std::errc::not_a_directory);
+    throw Error(ErrorKind::io, "cannot write " + file.string() + ": " + failed.message());
+  }
+  return folder / unfinished;
+}
 
 size_t remove_leftovers_beside(const fs::path& file) {
   return remove_from(fs::absolute(file).parent_path(), [](const std::string& name) {

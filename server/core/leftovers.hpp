@@ -9,7 +9,8 @@ namespace ream {
 /// Whoever still works on such a thing holds a lock on it, so this may be called at any time. Returns how
 /// many files and folders are gone; what cannot be removed stays.
 size_t remove_leftovers(const std::filesystem::path& data);
-/// What to name a TemporaryFolder after in which a file is made that may hold what others must not see.
+/// What to name a TemporaryFolder after in which a file is made that may hold what others must not see. Error
+/// io where there is no folder for the file.
 std::filesystem::path unfinished_beside(const std::filesystem::path& file);
 /// The same as remove_leftovers() for what unfinished_beside() named, whatever the file is called.
 size_t remove_leftovers_beside(const std::filesystem::path& file);

@@ -23,10 +23,10 @@ struct JobOrder {
   std::string session_id = {};  ///< session that it works on; empty: on none
   /// The session that it is about: who may see that may know of the work, besides operators and instructors.
   std::shared_ptr<const session::SessionRequest> session = nullptr;
+  std::string counted_for = {};  ///< whose places it takes (JobOptions::of_caller); empty: not limited
   /// Of what is made from somebody's file: the user who sent it. Why it failed may name the file, and files
   /// are named after patients.
   std::optional<std::string> sender = std::nullopt;
-  std::string counted_for = {};  ///< whose places it takes (JobOptions::of_caller); empty: not limited
 };
 
 /// A file that work has made, to be fetched for a while.

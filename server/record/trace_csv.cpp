@@ -55,7 +55,8 @@ class Row {
 const std::string& TraceCsv::header_line() {
   static const std::string line = [] {
     std::string names;
-    for (const TraceColumn& column : trace_columns()) names.append(names.empty() ? "" : ",").append(column.name);
+    for (const TraceColumn& column : trace_columns())
+      names.append(names.empty() ? "" : ",").append(column.name);
     return names;
   }();
   return line;

@@ -150,7 +150,9 @@ void TableReader::set(size_t place, const json& value) {
   cell.indicator = value.is_null() ? soci::i_null : soci::i_ok;
   const Column& column = row_.columns[place];
   if (value.is_null()) return;
-  if (column.kind == Column::Kind::whole && value.is_number_integer())
+  const bool is_whole =
+      value.is_number_integer() && (!value.is_number_unsigned() || value.get<uint64_t>() <= INT64_MAX);
+  if (column.kind == Column::Kind::whole && is_whole)
     cell.whole = value;
   else if (column.kind == Column::Kind::number && value.is_number())
     cell.number = value;

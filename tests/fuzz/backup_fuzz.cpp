@@ -28,7 +28,7 @@ Place& place() {
 
 void read_manifest(std::string_view text) {
   const fs::path file = place().folder.path() / "backup.json";
-  write_file(file, text);
+  write_file_atomically(file, text);
   const app::BackupManifest manifest = app::read_manifest(file, "backup.zip");
   app::write_manifest(manifest, file);
   require(app::read_manifest(file, "backup.zip").files == manifest.files,
@@ -46,7 +46,7 @@ void read_rows(const std::string& table, std::string_view text) {
   Place& here = place();
   const fs::path folder = here.folder.path();
   const auto before = store::filled_tables(here.database);
-  write_file(folder / (table + ".jsonl"), text);
+  write_file_atomically(folder / (table + ".jsonl"), text);
   try {
     store::read_table_files(here.database, folder, {{table, rows_of(text)}}, [] {});
   } catch (const Error&) {

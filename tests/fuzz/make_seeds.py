@@ -102,8 +102,24 @@ def recording() -> list[bytes]:
     return [b"\x00" + (GOLDEN / "recording-2.ream").read_bytes()]
 
 
+def backup() -> list[bytes]:
+    user = '["id","name","display_name","role","enabled","created_utc","password_hash"]'
+    row = '["u1","tom","Tom","trainee",1,"2026-01-01T00:00:00Z","x"]'
+    study = '["id","name"]\n["s1",null]\n'
+    return [
+        bytes([kind]) + text.encode()
+        for kind, text in (
+            (0, '{"format": "ream backup", "revision": 1, "made_utc": "2026-01-01T00:00:00Z", "build": "ream 0.1.0",'
+                '"tables": [{"table": "users", "rows": 1}], "files": 3, "migrations": [1, 10]}'),
+            (5, f"{user}\n{row}\n"),
+            (10, f"{user}\n{row}\n{row}"),
+            (7, study),
+        )
+    ]
+
+
 def main() -> None:
-    for make in (http, headers, device_messages, websocket, json, recording, *file_seeds.ALL):
+    for make in (http, headers, device_messages, websocket, json, recording, backup, *file_seeds.ALL):
         folder = Path(sys.argv[1]) / make.__name__
         folder.mkdir(parents=True, exist_ok=True)
         for number, seed in enumerate(make(), 1):

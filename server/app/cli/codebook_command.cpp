@@ -11,7 +11,8 @@ namespace ream::app {
 namespace {
 
 session::ExportTable trace_codebook() {
-  session::ExportTable book{"trace", {{"column", "", "Name"}, {"unit", "", "Unit"}, {"meaning", "", "Meaning"}}, {}};
+  session::ExportTable book{
+      "trace", {{"column", "", "Name"}, {"unit", "", "Unit"}, {"meaning", "", "Meaning"}}, {}};
   for (const record::TraceColumn& column : record::trace_columns())
     book.rows.push_back({column.name, column.unit, column.meaning});
   return book;
@@ -34,8 +35,8 @@ session::ExportTable metrics_codebook() {
 
 void add_codebook_command(CLI::App& app, GlobalOptions& global) {
   auto of = std::make_shared<std::string>();
-  CLI::App* command =
-      app.add_subcommand("codebook", "Print what the columns of trace.csv or the keys of metrics.json mean, as CSV");
+  CLI::App* command = app.add_subcommand(
+      "codebook", "Print what the columns of trace.csv or the keys of metrics.json mean, as CSV");
   command->add_option("OF", *of, "trace or metrics")->check(CLI::IsMember({"trace", "metrics"}))->required();
   command->callback([of, &global] {
     const session::ExportTable book = *of == "trace" ? trace_codebook() : metrics_codebook();

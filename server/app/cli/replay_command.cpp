@@ -1,11 +1,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.hpp"
+#include "app/cli/terminal_progress.hpp"
 #include "core/clock.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
@@ -104,7 +106,11 @@ void verify(const ReplayOptions& options, const GlobalOptions& global, const rec
   session::VerifyRequest request;
   request.backend = options.backend;
   request.until_tick = until_tick(options);
-  const session::VerifyResult found = session::verify_replay(recording, std::move(bone_case), request);
+  const session::VerifyResult found = [&] {
+    const TerminalProgress progress;
+    request.progress = std::cref(progress);
+    return session::verify_replay(recording, std::move(bone_case), request);
+  }();
   json answer = about(recording, found.ticks);
   answer["verified"] = !found.difference.has_value();
   answer["backend"] = found.backend;

@@ -1,9 +1,11 @@
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.hpp"
+#include "app/cli/terminal_progress.hpp"
 #include "app/numbers.hpp"
 #include "core/atomic_file.hpp"
 #include "core/data_folder.hpp"
@@ -66,8 +68,10 @@ void simulate(const SimulateOptions& options, const GlobalOptions& global) {
   catch_interrupts();
   session::Simulation simulation(session::build_setup(request, data_folder(global.data)));
   const std::vector<uint8_t> before = simulation.bone_case.bone.coverage;
-  const session::SessionFiles::Results result =
-      session::run_headless(simulation, before, folder.path(), options.wall_clock);
+  const session::SessionFiles::Results result = [&] {
+    const TerminalProgress progress;
+    return session::run_headless(simulation, before, folder.path(), options.wall_clock, std::cref(progress));
+  }();
   session::write_reamed_pictures(simulation, before, folder.path());
   session::keep_score(folder.path(), data_folder(global.data));
   throw_if_interrupted();

@@ -1,8 +1,10 @@
 #include "session/live/headless_run.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
+#include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/log.hpp"
@@ -23,6 +25,8 @@ constexpr int bricks_a_tick_without_hurry = 8192;
 /// Chunks that may wait for the disk before a run in virtual time waits for it.
 constexpr size_t enough_waiting_chunks = 16;
 
+constexpr uint32_t ticks_between_progress = 100;
+
 /// A loop that stands still for longer than this will not come back.
 constexpr int64_t max_standstill_ms = 5000;
 
@@ -37,7 +41,8 @@ bool is_phantom(const case_::Case& c) { return c.source.starts_with("phantom"); 
 }  // namespace
 
 SessionFiles::Results run_headless(Simulation& simulation, std::span<const uint8_t> start_coverage,
-                                   const std::filesystem::path& folder, bool wall_clock) {
+                                   const std::filesystem::path& folder, bool wall_clock,
+                                   const Progress& progress) {
   LoopRings rings(simulation.bone_case.bone.grid);
   simulation.state.brick_sender = &rings.sender;
   if (!wall_clock) simulation.state.brick_budget = bricks_a_tick_without_hurry;
@@ -48,7 +53,10 @@ SessionFiles::Results run_headless(Simulation& simulation, std::span<const uint8
   SessionFiles files(simulation, folder, start_coverage.data(), SessionFiles::Trace::written);
   sim::BlackBox recent;
   const auto take_brick = [&](const voxel::BrickImage& image) { files.add(image); };
+  const double all_ticks = std::max(simulation.script.duration_s / tick_s, 1.0);
   const auto take_report = [&](const record::TickReport& report) {
+    if (report.tick % ticks_between_progress == 0)
+      progress(std::min(report.tick / all_ticks, 1.0), "reaming");
     recent.remember(report);
     files.add(report);
     for (const record::ops::Event& event : files.newest_events())

@@ -116,6 +116,7 @@ class Verifier {
     for (uint32_t first = segment.first_tick; first < end && !result_.difference;
          first += ticks_between_looks_for_interrupts) {
       throw_if_interrupted();
+      request_.progress(static_cast<double>(first) / std::max(last_tick(), 1u), "computing again");
       recording_.for_each_tick(first, std::min(end, first + ticks_between_looks_for_interrupts),
                                [&](const record::ops::Tick& tick) {
                                  if (!result_.difference) repeat(tick);

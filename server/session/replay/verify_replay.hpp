@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/progress.hpp"
 #include "record/tick_difference.hpp"
 #include "session/simulation/recorded_setup.hpp"
 
@@ -14,6 +15,7 @@ struct VerifyRequest {
   uint32_t until_tick = UINT32_MAX;  ///< so many ticks, or all there are
   /// Between two looks at the whole bone, a nanosecond a voxel each; by default as often as there are keys.
   uint32_t ticks_between_grid_hashes = 16000;
+  Progress progress = no_progress;
 };
 
 /// What came of it.

@@ -55,13 +55,14 @@ TEST_F(UploadNamesTest, WhyAnImportFailedIsForTheSenderAndOperatorsToo) {
                     with(ina, "Content-Type", "application/octet-stream"), damaged)
                 .status,
             200);
-  const HttpReply ordered = request(
-      "POST", "/api/v1/cases", ina,
-      json{{"upload_id", json::parse(begun.body).at("id")}, {"side", "right"}}.dump());
+  const HttpReply ordered =
+      request("POST", "/api/v1/cases", ina,
+              json{{"upload_id", json::parse(begun.body).at("id")}, {"side", "right"}}.dump());
   ASSERT_EQ(ordered.status, 202) << ordered.body;
   const std::string job = ordered.headers.at("location");
   const auto state = [&] { return json::parse(request("GET", job, olga).body).at("state"); };
-  while (state() == "waiting" || state() == "running") std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  while (state() == "waiting" || state() == "running")
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
   ASSERT_EQ(state(), "failed");
   for (const auto& [as, sees] : {std::pair{olga, true}, {ina, true}, {ian, false}}) {
     const HttpReply alone = request("GET", job, as), list = request("GET", "/api/v1/jobs", as);
