@@ -1,0 +1,167 @@
+#include "support/disk_fault.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <iterator>
+#include <random>
+#include <set>
+
+#include "core/file.hpp"
+#include "ct/phantom/phantom.hpp"
+#include "ct/read/write_volume.hpp"
+#include "e2e/cli/serve_block_fixture.hpp"
+#include "support/places.hpp"
+#include "support/seed.hpp"
+
+namespace ream::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// Set: every call fails in its turn, which takes an hour. Else some do.
+constexpr const char* every_fault_variable = "REAM_EVERY_DISK_FAULT";
+constexpr int some_faults = 3;
+
+/// A disk fails once, in any call: the command says so in one line and leaves nothing half made, or it has
+/// done all.
+class DiskFault : public ServeBlock, public testing::WithParamInterface<const char*> {
+ protected:
+  void SetUp() override {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "the sanitizer's own library must be the first";
+#endif
+    ServeBlock::SetUp();
+  }
+
+  /// Runs the command with the fault of that number; 0: with none.
+  Outcome run_with_fault(long number, const Words& words) {
+    environment_ = {{"LD_PRELOAD", build_folder() + "/tests/support/libdisk_fault_preload.so"},
+                    {disk_fault_folder_variable, fs::canonical(folder()).string()},
+                    {disk_fault_call_variable, GetParam()},
+                    {disk_fault_number_variable, std::to_string(number)},
+                    {disk_fault_count_variable, (printed_.path() / "count").string()}};
+    Outcome outcome = run(words);
+    environment_.clear();
+    return outcome;
+  }
+
+  /// Which calls of so many fail.
+  static std::set<long> faults_of(long calls) {
+    std::set<long> numbers;
+    if (std::getenv(every_fault_variable) != nullptr) {
+      for (long i = 1; i <= calls; ++i) numbers.insert(i);
+      return numbers;
+    }
+    std::mt19937 random(seed(static_cast<uint32_t>(calls)));
+    while (calls > 0 && static_cast<long>(numbers.size()) < std::min<long>(calls, some_faults))
+      numbers.insert(std::uniform_int_distribution<long>(1, calls)(random));
+    return numbers;
+  }
+
+  /// By default: the folder is as it was.
+  virtual void check_failed(const std::string&, const std::vector<std::string>& before,
+                            const Outcome& outcome) {
+    EXPECT_EQ(joined(added(before, tree())), "") << "is left. " << outcome.error;
+    EXPECT_EQ(joined(added(tree(), before)), "") << "is gone. " << outcome.error;
+  }
+  static std::vector<std::string> added(const std::vector<std::string>& before,
+                                        const std::vector<std::string>& after) {
+    std::vector<std::string> more;
+    std::set_difference(after.begin(), after.end(), before.begin(), before.end(), std::back_inserter(more));
+    return more;
+  }
+  static std::string joined(const std::vector<std::string>& names) {
+    std::string all;
+    for (const std::string& name : names) all += name + "; ";
+    return all;
+  }
+
+  /// `words` makes what is asked for where it is told by "MADE"; `check` looks at it where the command ended
+  /// well.
+  void fail_in_turn(const Words& words, const std::function<void(const std::string& made)>& check) {
+    const auto making = [&](const std::string& made) {
+      Words all = words;
+      for (std::string& word : all)
+        if (word == "MADE") word = made;
+      return all;
+    };
+    const Outcome whole = run_with_fault(0, making("whole"));
+    ASSERT_EQ(whole.exit_code, 0) << whole.error;
+    check("whole");
+    for (const long number : faults_of(std::stol(printed("count")))) {
+      SCOPED_TRACE(std::string(GetParam()) + " number " + std::to_string(number));
+      const auto before = tree();
+      const std::string made = "made-" + std::to_string(number);
+      const Outcome outcome = run_with_fault(number, making(made));
+      if (outcome.exit_code == 0) {
+        check(made);
+        continue;
+      }
+      EXPECT_EQ(outcome.exit_code, 1) << outcome.error;
+      EXPECT_NE(outcome.error.find("ream: "), std::string::npos) << outcome.error;
+      check_failed(made, before, outcome);
+    }
+  }
+};
+
+TEST_P(DiskFault, ASessionIsWholeOrNotThere) {
+  fail_in_turn(
+      {"simulate", "--case", "block", "--script", short_script(), "--backend", "cpu", "--out", "MADE"},
+      [&](const std::string& made) {
+        succeed({"replay", made, "--verify"});
+      });
+}
+
+TEST_P(DiskFault, ACaseIsWholeOrNotThere) {
+  ct::PhantomParams params;
+  params.spacing_mm = Vec3::Constant(2.5);
+  ct::write_volume_file(ct::make_phantom(params).volume, folder() / "shoulder.nrrd");
+  fail_in_turn({"import", "shoulder.nrrd", "--out", "MADE", "--side", "right"}, [&](const std::string& made) {
+    EXPECT_EQ(json_of("data/cases/" + made + "/case.json").at("side"), "right");
+    for (const char* file : {"/coverage.zst", "/density.zst"})
+      EXPECT_EQ(text_of("data/cases/" + made + file), text_of(std::string("data/cases/whole") + file));
+  });
+}
+
+TEST_P(DiskFault, ABackupIsWholeOrNotThere) {
+  succeed({"simulate", "--case", "block", "--script", short_script(), "--backend", "cpu", "--out",
+           "data/sessions/one"});
+  succeed({"list", "sessions"});
+  fail_in_turn({"backup", "MADE"}, [&](const std::string& made) {
+    succeed({"restore", made, "--data", made + "-restored"});
+    EXPECT_EQ(answer({"list", "sessions", "--data", made + "-restored"}), answer({"list", "sessions"}));
+  });
+}
+
+/// What is left is a data folder without anything, into which a backup can be restored.
+class DiskFaultInRestore : public DiskFault {
+ protected:
+  void check_failed(const std::string& made, const std::vector<std::string>&,
+                    const Outcome& outcome) override {
+    SCOPED_TRACE(outcome.error);
+    EXPECT_EQ(answer({"list", "sessions", "--data", made}).size(), 0u);
+    succeed({"restore", "kept.zip", "--data", made});
+    EXPECT_EQ(answer({"list", "sessions", "--data", made}), answer({"list", "sessions"}));
+    EXPECT_EQ(answer({"list", "cases", "--data", made}), answer({"list", "cases"}));
+  }
+};
+
+TEST_P(DiskFaultInRestore, WhatIsRestoredIsWholeOrCanBeRestoredAgain) {
+  succeed({"simulate", "--case", "block", "--script", short_script(), "--backend", "cpu", "--out",
+           "data/sessions/one"});
+  succeed({"backup", "kept.zip"});
+  fail_in_turn({"restore", "kept.zip", "--data", "MADE"}, [&](const std::string& made) {
+    EXPECT_EQ(answer({"list", "sessions", "--data", made}), answer({"list", "sessions"}));
+  });
+}
+
+const auto calls = testing::Values("open", "write", "fsync", "rename");
+const auto name_of_call = [](const testing::TestParamInfo<const char*>& one) {
+  return std::string(one.param);
+};
+INSTANTIATE_TEST_SUITE_P(Of, DiskFault, calls, name_of_call);
+INSTANTIATE_TEST_SUITE_P(Of, DiskFaultInRestore, calls, name_of_call);
+
+}  // namespace
+}  // namespace ream::test
