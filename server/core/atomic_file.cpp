@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -28,6 +29,13 @@ fs::path temporary_beside(const fs::path& path) {
 fs::path without_trailing_slash(const fs::path& path) {
   const fs::path normal = fs::absolute(path).lexically_normal();
   return normal.has_filename() ? normal : normal.parent_path();
+}
+
+/// Parents go unless others use them by now.
+void discard(const fs::path& folder, const std::vector<fs::path>& made_parents) {
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
+  for (const fs::path& parent : made_parents) fs::remove(parent, ignored);
 }
 
 }  // namespace
@@ -110,15 +118,17 @@ AtomicFolder::AtomicFolder(fs::path final_path, bool replace)
   for (fs::path p = final_.parent_path(); !fs::exists(p, failed) && p.has_relative_path();
        p = p.parent_path())
     made_parents_.push_back(p);
-  make_writable_folder(temporary_);
+  try {
+    make_writable_folder(temporary_);
+  } catch (...) {
+    discard(temporary_, made_parents_);
+    throw;
+  }
   lock_ = FileLock::attempt_existing(temporary_);
 }
 
 AtomicFolder::~AtomicFolder() {
-  std::error_code ignored;
-  if (committed_) return;
-  fs::remove_all(temporary_, ignored);
-  for (const fs::path& parent : made_parents_) fs::remove(parent, ignored);  // unless others use it by now
+  if (!committed_) discard(temporary_, made_parents_);
 }
 
 void AtomicFolder::commit() {
