@@ -16,6 +16,7 @@ import { Latency } from './state/latency';
 import { LiveCase } from './state/live_case';
 import { LiveAnnotations } from './state/live_annotations';
 import { Practice } from './state/practice';
+import { PracticeChoice } from './state/practice_choice';
 import { PracticeStore } from './state/practice_store';
 import { browserWindow, letGoWhenLeft } from './state/practice_window';
 import { headsetMessage } from './scene/headset_text';
@@ -37,6 +38,7 @@ import { linkInAddress, takeLinkFromAddress } from './state/watch_link';
 import { Surroundings } from './state/surroundings';
 import { Watcher } from './state/watcher';
 import { Api } from './wire/api';
+import { CaseApi } from './wire/case_api';
 import { WorkerDeviceSocket } from './wire/device_socket';
 import { LoginApi } from './wire/login_api';
 import { MeshLoader } from './wire/mesh_loader';
@@ -86,7 +88,8 @@ function main(root: HTMLElement): void {
   effect(() => void (view.theatre.value = inTheatre.value));
   effect(() => scene.setView(view.shown.value, view.theatre.value));
   const tutorial = makeTutorial({ store, watcher, practice, practiceStore }, scene, view);
-  keepForPerson(identity, view, tutorial);
+  const choice = new PracticeChoice(new CaseApi(window.location.origin), () => identity.may.value.readCases);
+  keepForPerson(identity, [view, choice], tutorial);
   const review = new ReviewApi(window.location.origin);
   const feel = watchForFeel(identity, { store, practice: practiceStore, route });
   effect(() => scene.setAim(practiceStore.plan.value, practiceStore.hand.place.value));
@@ -104,7 +107,7 @@ function main(root: HTMLElement): void {
         latency,
         health: healthHere(store, practiceStore, latency),
         annotations: new LiveAnnotations(store, review),
-        theatreWanted: signal(false),
+        choice,
         practice,
         practiceStore,
         tutorial,
@@ -228,13 +231,13 @@ function makeTutorial(parts: Omit<TutorialParts, 'view'>, scene: BoneScene, view
   return new Tutorial({ ...parts, view: { eye: () => scene.eye(), begin, end } });
 }
 
-/** How somebody wants to see the bone, and who knows the tutorial; on a server without users both are the browser's. */
-function keepForPerson(identity: Identity, view: ViewSettings, tutorial: Tutorial): void {
-  let end: () => void = () => undefined;
+/** How somebody wants to see the bone and to practise, and who knows the tutorial; without users all are the browser's. */
+function keepForPerson(identity: Identity, kept: readonly [ViewSettings, PracticeChoice], tutorial: Tutorial): void {
+  let ends: readonly (() => void)[] = [];
   effect(() => {
     const person = identity.userId.value ?? 'anyone';
-    end();
-    end = untracked(() => view.keepFor(person, window.localStorage));
+    for (const end of ends) end();
+    ends = untracked(() => kept.map((one) => one.keepFor(person, window.localStorage)));
     untracked(() => tutorial.keepFor(person, window.localStorage));
   });
 }

@@ -1,6 +1,6 @@
 import { DepthMeter } from '../panels/live/depth_meter';
 import { Figures } from '../panels/live/figures';
-import { type ReadonlySignal, type Signal, signal } from '@preact/signals';
+import { type ReadonlySignal, signal } from '@preact/signals';
 
 import { ForcePlots } from '../panels/live/force_plot';
 import { lazyPart } from '../panels/common/lazy_part';
@@ -26,6 +26,7 @@ import type { Latency } from '../state/latency';
 import type { LiveCase } from '../state/live_case';
 import type { LiveAnnotations } from '../state/live_annotations';
 import type { Practice } from '../state/practice';
+import type { PracticeChoice } from '../state/practice_choice';
 import type { PracticeStore } from '../state/practice_store';
 import type { ResultWatch } from '../state/result_watch';
 import type { Sound } from '../state/sound';
@@ -50,7 +51,7 @@ export interface LivePageParts {
   latency: Latency;
   health: ReadonlySignal<Health | null>;
   annotations: LiveAnnotations;
-  theatreWanted: Signal<boolean>;
+  choice: PracticeChoice;
   practice: Practice;
   practiceStore: PracticeStore;
   tutorial: Tutorial;

@@ -62,15 +62,17 @@ export function Picture({ store, practice, scene, view, alarms, bare, guided, ch
           {appText.replayBadge}
         </p>
       )}
-      {steering && bare !== true && guided !== true && <Guide store={store} practice={practice} />}
+      {steering && practice.hints.value && bare !== true && guided !== true && (
+        <Guide store={store} practice={practice} />
+      )}
       {lost && store.upToDate.value ? (
         <PictureLost steering={steering} />
       ) : steering && store.upToDate.value ? (
-        <PracticeNotice store={store} practice={practice} theatre={view.theatre.value} />
+        <PracticeNotice store={store} practice={practice} />
       ) : (
         <LinkNotice store={store} mayReam={may.ream} />
       )}
-      {!view.theatre.value && <AlarmList alarms={alarms} />}
+      {!view.theatre.value && practice.hints.value && <AlarmList alarms={alarms} />}
       {children}
       {bare !== true && <ViewTools scene={scene} view={view} reamerShown={store.reamerShown} />}
     </main>
