@@ -20,6 +20,7 @@ import { PracticeChoice } from './state/practice_choice';
 import { PracticeStore } from './state/practice_store';
 import { browserWindow, letGoWhenLeft } from './state/practice_window';
 import { headsetMessage } from './scene/headset_text';
+import { CommentNotices } from './state/comment_notices';
 import { isActive } from './state/choose_session';
 import { followTitle } from './state/page_title';
 import { addressOfReplay, replayInAddress } from './state/replay_address';
@@ -28,6 +29,7 @@ import { layReamerAside } from './state/reamer_at_end';
 import { ResultWatch } from './state/result_watch';
 import { Sound } from './state/sound';
 import { Store } from './state/store';
+import { StudyLine } from './state/study/study_line';
 import { FeelWatch } from './state/study/feel_watch';
 import { theatreHere } from './state/theatre';
 import { theme } from './state/theme';
@@ -38,6 +40,7 @@ import { linkInAddress, takeLinkFromAddress } from './state/watch_link';
 import { Surroundings } from './state/surroundings';
 import { Watcher } from './state/watcher';
 import { Api } from './wire/api';
+import { ChangeSocket } from './wire/change_socket';
 import { CaseApi } from './wire/case_api';
 import { WorkerDeviceSocket } from './wire/device_socket';
 import { LoginApi } from './wire/login_api';
@@ -74,7 +77,6 @@ function main(root: HTMLElement): void {
   effect(() => {
     if (scene.lost.value && practiceStore.sessionId.peek() !== null) untracked(() => practice.letGo());
   });
-  showReamer(store, scene);
   const liveCase = new LiveCase(store, () => identity.may.value.readCases, window.location.origin);
   const seesSurroundings = () => identity.may.value.readCases && scene.quality.full.value;
   new Surroundings(store, scene, new MeshLoader(), seesSurroundings, window.location.origin);
@@ -91,6 +93,13 @@ function main(root: HTMLElement): void {
   const choice = new PracticeChoice(new CaseApi(window.location.origin), () => identity.may.value.readCases);
   keepForPerson(identity, [view, choice], tutorial);
   const review = new ReviewApi(window.location.origin);
+  const annotations = new LiveAnnotations(
+    store,
+    review,
+    (handlers) => new ChangeSocket(window.location.origin, handlers),
+  );
+  const comments = noticeComments(identity, { store, practice: practiceStore, annotations });
+  showReamer(store, scene, comments);
   const feel = watchForFeel(identity, { store, practice: practiceStore, route });
   effect(() => scene.setAim(practiceStore.plan.value, practiceStore.hand.place.value));
   render(
@@ -106,7 +115,9 @@ function main(root: HTMLElement): void {
         sound,
         latency,
         health: healthHere(store, practiceStore, latency),
-        annotations: new LiveAnnotations(store, review),
+        annotations,
+        comments,
+        study: studyLine(store, api),
         choice,
         practice,
         practiceStore,
@@ -136,16 +147,36 @@ function keepOwnCamera(scene: BoneScene, view: ViewSettings): void {
 }
 
 /** Where the reamer and the bone are, and what the reamer does. */
-function showReamer(store: Store, scene: BoneScene): void {
+function showReamer(store: Store, scene: BoneScene, comments: CommentNotices): void {
   effect(() => scene.setToolPose(store.telemetry.value?.worldFromTool ?? null));
   effect(() => scene.setBonePose(store.telemetry.value?.worldFromBoneRest ?? null));
   effect(() => scene.setToolAction(toolAction(store.telemetry.value, store.upToDate.value)));
   effect(() => scene.setTouching(store.touching.value));
   effect(() => {
-    if (scene.headset.worn.value) scene.headset.show(headsetMessage(store));
+    if (scene.headset.worn.value) {
+      scene.headset.show(headsetMessage(store, comments.shown.value.at(-1)?.comment ?? null));
+    }
   });
   layReamerAside(store);
   effect(() => scene.setToolShown(store.reamerShown.value));
+}
+
+/** Who takes part in a study signs comments by its code. */
+function noticeComments(
+  identity: Identity,
+  watched: { store: Store; practice: PracticeStore; annotations: LiveAnnotations },
+): CommentNotices {
+  const ownNames = () => {
+    const { user } = identity.visitor.peek() ?? {};
+    const code = watched.store.watched.peek()?.participant ?? '';
+    return [user?.name ?? '', user?.display_name ?? '', code];
+  };
+  return new CommentNotices({ ...watched, ownNames });
+}
+
+function studyLine(store: Store, api: Api): StudyLine {
+  const studies = new StudyApi(window.location.origin);
+  return new StudyLine({ store, study: (id) => studies.study(id), earlier: (session) => api.earlierInStudy(session) });
 }
 
 function watchForFeel(

@@ -21,6 +21,7 @@ import { SessionList } from '../panels/live/session_list';
 import { TutorialPanel } from '../panels/live/tutorial_panel';
 import type { BoneScene } from '../scene/scene';
 import type { Alarms } from '../state/alarms';
+import type { CommentNotices } from '../state/comment_notices';
 import type { Health } from '../state/health';
 import type { Latency } from '../state/latency';
 import type { LiveCase } from '../state/live_case';
@@ -32,6 +33,7 @@ import type { ResultWatch } from '../state/result_watch';
 import type { Sound } from '../state/sound';
 import type { Store } from '../state/store';
 import type { Tutorial } from '../state/tutorial_guide';
+import type { StudyLine } from '../state/study/study_line';
 import type { FeelWatch } from '../state/study/feel_watch';
 import type { ViewSettings } from '../state/view_settings';
 import type { Watcher } from '../state/watcher';
@@ -51,6 +53,8 @@ export interface LivePageParts {
   latency: Latency;
   health: ReadonlySignal<Health | null>;
   annotations: LiveAnnotations;
+  comments: CommentNotices;
+  study: StudyLine;
   choice: PracticeChoice;
   practice: Practice;
   practiceStore: PracticeStore;
@@ -69,9 +73,9 @@ export function LivePage(parts: LivePageParts) {
   const toPicture = () => scene.canvas.focus({ preventScroll: true });
   return (
     <div class={`page ${bar}`}>
-      <Header store={store} />
+      <Header store={store} study={parts.study} />
       {guided && <TutorialPanel {...{ store, tutorial }} practice={practiceStore} toPicture={toPicture} />}
-      <Picture {...{ store, scene, view, alarms }} practice={practiceStore} guided={guided}>
+      <Picture {...{ store, scene, view, alarms }} comments={parts.comments} practice={practiceStore} guided={guided}>
         <DepthMeter store={store} />
         <LiveStrip health={health} sound={sound} slicesOpen={slicesOpen} />
         {slicesOpen.value &&

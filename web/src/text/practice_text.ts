@@ -20,4 +20,16 @@ export const practiceText = {
   reamer: (name: string) => `Reamer: ${name}`,
   reamerOf: (name: string, diameter: string) => `${name}, ⌀ ${diameter} mm`,
   reamerHint: 'The reamer of this case’s plan',
+
+  comments: 'New comments',
+  comment: 'Comment:',
+  commentBy: (author: string) => `${author}:`,
+  dismissComment: 'Dismiss comment',
+
+  study: 'In a study',
+  studyNamed: (name: string) => `Study ${name}`,
+  attempt: (number: number) => `attempt ${number}`,
+
+  demoRun: 'Demo',
+  scriptRun: 'Script',
 };

@@ -24,17 +24,7 @@ export function PracticeBar({ practice, toPicture }: { practice: PracticeStore; 
         >
           {appText.pushButton}
         </HoldButton>
-        <HoldButton
-          class="hand-button"
-          id="withdraw"
-          onPointerDone={toPicture}
-          onHold={(held) => {
-            if (held) hand.takeHold();
-            hand.withdraw('button', held ? 1 : 0);
-          }}
-        >
-          {appText.withdrawButton}
-        </HoldButton>
+        <WithdrawButton hand={hand} onDone={toPicture} />
         <PauseButton hand={hand} onDone={(event) => afterClick(event, toPicture)} />
         <p class="soft off-plan" data-testid="off-plan">
           {appText.offPlan(fixed(practice.offPlanMm.value, 1))}
@@ -96,6 +86,23 @@ export function DriveButtons({ hand, onDone }: HandButtonParts) {
         onPress={press(() => hand.toggleIrrigation())}
       />
     </>
+  );
+}
+
+/** For a touch screen: no finger on the picture withdraws. */
+export function WithdrawButton({ hand, onDone }: { hand: Hand; onDone: () => void }) {
+  return (
+    <HoldButton
+      class="hand-button"
+      id="withdraw"
+      onPointerDone={onDone}
+      onHold={(held) => {
+        if (held) hand.takeHold();
+        hand.withdraw('button', held ? 1 : 0);
+      }}
+    >
+      {appText.withdrawButton}
+    </HoldButton>
   );
 }
 
