@@ -44,7 +44,7 @@ test('each level gives less, and the one chosen last is remembered', async ({ pa
       await page.getByTestId('practice-chooser').scrollIntoViewIfNeeded();
       await page.screenshot({ path: info.outputPath(`chooser-${width}-${colorScheme}.png`) });
     }
-    expect(await misplaced(page, 24), `${width}`).toEqual([]);
+    expect(await misplaced(page, 20), `${width}`).toEqual([]);
   }
   expect((await new AxeBuilder({ page }).include('.run').analyze()).violations).toEqual([]);
   await page.setViewportSize({ width: 1280, height: 720 });

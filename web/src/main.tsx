@@ -61,22 +61,7 @@ function main(root: HTMLElement): void {
     makesSession: () => !identity.hasUsers.value,
   });
   const practiceStore = new PracticeStore(store);
-  const hands = browserWindow();
-  const practice = new Practice(
-    practiceStore,
-    store,
-    new WorkerDeviceSocket(),
-    scene.canvas,
-    scene,
-    // Nobody reams what they do not see.
-    { ...hands, attended: () => hands.attended() && !scene.lost.value },
-    (id) => api.deviceUrl(id),
-  );
-  letGoWhenLeft(practice);
-  practiceStore.input.listen(window, window.matchMedia('(pointer: coarse)').matches);
-  effect(() => {
-    if (scene.lost.value && practiceStore.sessionId.peek() !== null) untracked(() => practice.letGo());
-  });
+  const practice = steerByHand(practiceStore, store, scene, api);
   const liveCase = new LiveCase(store, () => identity.may.value.readCases, window.location.origin);
   const seesSurroundings = () => identity.may.value.readCases && scene.quality.full.value;
   new Surroundings(store, scene, new MeshLoader(), seesSurroundings, window.location.origin);
@@ -137,6 +122,27 @@ function main(root: HTMLElement): void {
   beginWithOverview(identity, route);
   void identity.find(linkSecret);
   watchWhenKnown(identity, route, () => goOnSteering(api, store, practice), { watcher, practice, practiceStore });
+}
+
+/** Mouse, touch, keys and gamepad of this window; they let go when nothing is seen. */
+function steerByHand(practiceStore: PracticeStore, store: Store, scene: BoneScene, api: Api): Practice {
+  const hands = browserWindow();
+  const practice = new Practice(
+    practiceStore,
+    store,
+    new WorkerDeviceSocket(),
+    scene.canvas,
+    scene,
+    // Nobody reams what they do not see.
+    { ...hands, attended: () => hands.attended() && !scene.lost.value },
+    (id) => api.deviceUrl(id),
+  );
+  letGoWhenLeft(practice);
+  practiceStore.input.listen(window, window.matchMedia('(pointer: coarse)').matches);
+  effect(() => {
+    if (scene.lost.value && practiceStore.sessionId.peek() !== null) untracked(() => practice.letGo());
+  });
+  return practice;
 }
 
 /** A camera that a person has moved is their own. */
