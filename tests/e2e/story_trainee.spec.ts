@@ -55,7 +55,7 @@ for (const [width, height] of [
     expect((await download).suggestedFilename()).toMatch(/\.pdf$/);
     await page.getByTestId('result-review').click();
     await expect(page).toHaveURL(new RegExp(`#/review/${sessionId ?? 'none'}$`));
-    await expect(page.getByRole('main')).toContainText('Passed', { timeout: 60_000 });
+    await expect(page.getByTestId('score')).toContainText('Passed', { timeout: 60_000 });
     await look('4-review');
 
     // 5. Overview has your learning curve.
