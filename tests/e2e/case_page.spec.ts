@@ -213,8 +213,8 @@ test('a series becomes a case, is planned, and is reamed', async ({ page }) => {
   expect((await details(page, id)).stage).toBe('built');
 
   await openStep(page, 'ream');
-  await page.getByTestId('case-theatre').check();
-  await page.getByTestId('case-theatre').uncheck();
+  await page.getByTestId('case-level').selectOption('exam');
+  await page.getByTestId('case-level').selectOption('guided');
   await page.getByTestId('start-reaming').click();
   await untilLive(page);
   expect(page.url()).not.toContain('#/cases');

@@ -182,7 +182,7 @@ test('in theatre there is nothing but the bone, an opaque reamer, sound and forc
   });
   await open(page);
   await page.getByTestId('cut-away').click();
-  await page.getByTestId('theatre-mode').check();
+  await page.getByTestId('practice-level').selectOption('exam');
   const eye = async () => {
     const { target, towardsEye, distanceMm } = (await readout(page)).eye;
     return [target.x, target.y, target.z, towardsEye.x, towardsEye.y, towardsEye.z, distanceMm];

@@ -73,16 +73,19 @@ test('a trainee takes part, trains and answers; who watches sees the code until 
   await instructor.getByRole('link', { name: 'Who presses too hard?' }).click();
   await expect(instructor.getByTestId(`participant-${code}`)).toContainText('hidden');
   await instructor.getByTestId('to-live').click();
-  await expect(instructor.getByTestId('session-labels')).toContainText(code, { timeout: 60_000 });
+  await expect(instructor.getByTestId('study-line')).toHaveText(`Study Who presses too hard? · ${code} · attempt 1`, {
+    timeout: 60_000,
+  });
   expect(await instructor.locator('body').innerText()).not.toContain('Tom');
   await trainee.getByTestId('stop').click();
   await expect(trainee.getByTestId('session-state')).toHaveAttribute('data-state', 'stopped');
 
   // The way on leads to another attempt in the study, not out of it.
-  await expect(trainee.getByTestId('session-labels')).toContainText('in a study');
+  await expect(trainee.getByTestId('study-line')).toHaveText(`Study Who presses too hard? · ${code} · attempt 1`);
   await expect(trainee.getByTestId('practise')).toHaveText('Practise outside the study');
   await trainee.getByTestId('next-attempt').click();
   await expect(trainee.getByTestId('session-state')).toHaveAttribute('data-state', 'running', { timeout: 60_000 });
+  await expect(trainee.getByTestId('study-line')).toContainText('attempt 2');
   const attempts = await trainee.evaluate(async () => {
     const answer = (await (await fetch('/api/v1/sessions')).json()) as { sessions: { participant: string | null }[] };
     return answer.sessions.map((session) => session.participant);
@@ -154,7 +157,7 @@ test('an instructor enrols somebody without an account and trains with their cod
   const code = /[2-9A-Z]{2}-[2-9A-Z]{3}/.exec((await page.getByTestId('enrolled').textContent()) ?? '')?.[0] ?? '';
   await page.getByTestId('train-as').selectOption(code);
   await train(page);
-  await expect(page.getByTestId('session-labels')).toContainText(code);
+  await expect(page.getByTestId('study-line')).toContainText(code);
   await page.getByTestId('stop').click();
   await page.getByTestId('questionnaire-notice').getByRole('link').click();
   await expect(page.getByTestId('questionnaire')).toContainText(code);

@@ -7,9 +7,11 @@ import { readout, serverForEachTest, untilLive } from './server_for_each_test';
 import {
   againUntilLeft,
   covered,
+  harder,
   middle,
   named,
   namedKeys,
+  reamByKeys,
   tutorial,
   untilNamedDepth,
   untilStep,
@@ -38,12 +40,6 @@ async function expectReached(page: Page): Promise<void> {
     depth_error_mm: number;
   };
   expect(metrics.depth_error_mm).toBeLessThanOrEqual(withinMm);
-}
-
-/** Presses harder while the gauge does not show the wanted thrust. */
-async function harder(page: Page, press: () => Promise<void>): Promise<void> {
-  const inBand = await page.locator('.tutorial-gauge.inside').isVisible();
-  if (!inBand && Number(await page.getByTestId('push-level').inputValue()) < 52) await press();
 }
 
 async function serious(page: Page): Promise<string[]> {
@@ -131,31 +127,7 @@ test('by keys alone the demo is reamed to its plan', async ({ page }) => {
     expect(await serious(page), colorScheme).toEqual([]);
   }
 
-  const [hold = '', turn = '', zoom = ''] = await namedKeys(page);
-  for (let i = 0; i < 5; ++i) await page.keyboard.press(`${hold}+${turn}`);
-  await page.keyboard.press(zoom);
-  await untilStep(page, 'aim');
-  for (const key of await namedKeys(page)) await page.keyboard.press(key);
-  await untilStep(page, 'spindle');
-  for (const key of await namedKeys(page)) await page.keyboard.press(key);
-  await untilStep(page, 'touch');
-
-  const [push = ''] = await namedKeys(page);
-  await page.keyboard.down(push);
-  await untilStep(page, 'press');
-  const [kept, more = ''] = await namedKeys(page);
-  expect(kept).toBe(push);
-  await againUntilLeft(page, 'press', () => harder(page, () => page.keyboard.press(more)));
-  await untilStep(page, 'stop');
-  expect(await namedKeys(page)).toEqual([push]);
-  await untilNamedDepth(page);
-  await page.keyboard.up(push);
-  await untilStep(page, 'withdraw');
-
-  const [back = ''] = await namedKeys(page);
-  await page.keyboard.down(back);
-  await untilStep(page, 'result');
-  await page.keyboard.up(back);
+  await reamByKeys(page);
   const [shift = '', tab = '', enter = ''] = await namedKeys(page);
   await page.keyboard.press(`${shift}+${tab}`);
   await expect(page.getByTestId('tutorial-stop')).toBeFocused();

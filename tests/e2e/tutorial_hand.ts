@@ -64,6 +64,41 @@ export async function againUntilLeft(page: Page, step: string, action: () => Pro
   }
 }
 
+/** Presses harder while the gauge does not show the wanted thrust. */
+export async function harder(page: Page, press: () => Promise<void>): Promise<void> {
+  const inBand = await page.locator('.tutorial-gauge.inside').isVisible();
+  if (!inBand && Number(await page.getByTestId('push-level').inputValue()) < 52) await press();
+}
+
+/** From the first step to the last but one, by the keys that its sentences name. */
+export async function reamByKeys(page: Page): Promise<void> {
+  const [hold = '', turn = '', zoom = ''] = await namedKeys(page);
+  for (let i = 0; i < 5; ++i) await page.keyboard.press(`${hold}+${turn}`);
+  await page.keyboard.press(zoom);
+  await untilStep(page, 'aim');
+  for (const key of await namedKeys(page)) await page.keyboard.press(key);
+  await untilStep(page, 'spindle');
+  for (const key of await namedKeys(page)) await page.keyboard.press(key);
+  await untilStep(page, 'touch');
+
+  const [push = ''] = await namedKeys(page);
+  await page.keyboard.down(push);
+  await untilStep(page, 'press');
+  const [kept, more = ''] = await namedKeys(page);
+  expect(kept).toBe(push);
+  await againUntilLeft(page, 'press', () => harder(page, () => page.keyboard.press(more)));
+  await untilStep(page, 'stop');
+  expect(await namedKeys(page)).toEqual([push]);
+  await untilNamedDepth(page);
+  await page.keyboard.up(push);
+  await untilStep(page, 'withdraw');
+
+  const [back = ''] = await namedKeys(page);
+  await page.keyboard.down(back);
+  await untilStep(page, 'result');
+  await page.keyboard.up(back);
+}
+
 /** The middle of the picture, where the plan is whatever the view. */
 export async function middle(page: Page): Promise<{ x: number; y: number }> {
   const box = await page.getByTestId('bone-canvas').boundingBox();

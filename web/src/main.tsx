@@ -16,9 +16,11 @@ import { Latency } from './state/latency';
 import { LiveCase } from './state/live_case';
 import { LiveAnnotations } from './state/live_annotations';
 import { Practice } from './state/practice';
+import { PracticeChoice } from './state/practice_choice';
 import { PracticeStore } from './state/practice_store';
 import { browserWindow, letGoWhenLeft } from './state/practice_window';
 import { headsetMessage } from './scene/headset_text';
+import { CommentNotices } from './state/comment_notices';
 import { isActive } from './state/choose_session';
 import { followTitle } from './state/page_title';
 import { addressOfReplay, replayInAddress } from './state/replay_address';
@@ -27,6 +29,7 @@ import { layReamerAside } from './state/reamer_at_end';
 import { ResultWatch } from './state/result_watch';
 import { Sound } from './state/sound';
 import { Store } from './state/store';
+import { StudyLine } from './state/study/study_line';
 import { FeelWatch } from './state/study/feel_watch';
 import { theatreHere } from './state/theatre';
 import { theme } from './state/theme';
@@ -37,6 +40,8 @@ import { linkInAddress, takeLinkFromAddress } from './state/watch_link';
 import { Surroundings } from './state/surroundings';
 import { Watcher } from './state/watcher';
 import { Api } from './wire/api';
+import { ChangeSocket } from './wire/change_socket';
+import { CaseApi } from './wire/case_api';
 import { WorkerDeviceSocket } from './wire/device_socket';
 import { LoginApi } from './wire/login_api';
 import { MeshLoader } from './wire/mesh_loader';
@@ -56,23 +61,7 @@ function main(root: HTMLElement): void {
     makesSession: () => !identity.hasUsers.value,
   });
   const practiceStore = new PracticeStore(store);
-  const hands = browserWindow();
-  const practice = new Practice(
-    practiceStore,
-    store,
-    new WorkerDeviceSocket(),
-    scene.canvas,
-    scene,
-    // Nobody reams what they do not see.
-    { ...hands, attended: () => hands.attended() && !scene.lost.value },
-    (id) => api.deviceUrl(id),
-  );
-  letGoWhenLeft(practice);
-  practiceStore.input.listen(window, window.matchMedia('(pointer: coarse)').matches);
-  effect(() => {
-    if (scene.lost.value && practiceStore.sessionId.peek() !== null) untracked(() => practice.letGo());
-  });
-  showReamer(store, scene);
+  const practice = steerByHand(practiceStore, store, scene, api);
   const liveCase = new LiveCase(store, () => identity.may.value.readCases, window.location.origin);
   const seesSurroundings = () => identity.may.value.readCases && scene.quality.full.value;
   new Surroundings(store, scene, new MeshLoader(), seesSurroundings, window.location.origin);
@@ -86,8 +75,16 @@ function main(root: HTMLElement): void {
   effect(() => void (view.theatre.value = inTheatre.value));
   effect(() => scene.setView(view.shown.value, view.theatre.value));
   const tutorial = makeTutorial({ store, watcher, practice, practiceStore }, scene, view);
-  keepForPerson(identity, view, tutorial);
+  const choice = new PracticeChoice(new CaseApi(window.location.origin), () => identity.may.value.readCases);
+  keepForPerson(identity, [view, choice], tutorial);
   const review = new ReviewApi(window.location.origin);
+  const annotations = new LiveAnnotations(
+    store,
+    review,
+    (handlers) => new ChangeSocket(window.location.origin, handlers),
+  );
+  const comments = noticeComments(identity, { store, practice: practiceStore, annotations });
+  showReamer(store, scene, comments);
   const feel = watchForFeel(identity, { store, practice: practiceStore, route });
   effect(() => scene.setAim(practiceStore.plan.value, practiceStore.hand.place.value));
   render(
@@ -103,8 +100,10 @@ function main(root: HTMLElement): void {
         sound,
         latency,
         health: healthHere(store, practiceStore, latency),
-        annotations: new LiveAnnotations(store, review),
-        theatreWanted: signal(false),
+        annotations,
+        comments,
+        study: studyLine(store, api),
+        choice,
         practice,
         practiceStore,
         tutorial,
@@ -125,6 +124,27 @@ function main(root: HTMLElement): void {
   watchWhenKnown(identity, route, () => goOnSteering(api, store, practice), { watcher, practice, practiceStore });
 }
 
+/** Mouse, touch, keys and gamepad of this window; they let go when nothing is seen. */
+function steerByHand(practiceStore: PracticeStore, store: Store, scene: BoneScene, api: Api): Practice {
+  const hands = browserWindow();
+  const practice = new Practice(
+    practiceStore,
+    store,
+    new WorkerDeviceSocket(),
+    scene.canvas,
+    scene,
+    // Nobody reams what they do not see.
+    { ...hands, attended: () => hands.attended() && !scene.lost.value },
+    (id) => api.deviceUrl(id),
+  );
+  letGoWhenLeft(practice);
+  practiceStore.input.listen(window, window.matchMedia('(pointer: coarse)').matches);
+  effect(() => {
+    if (scene.lost.value && practiceStore.sessionId.peek() !== null) untracked(() => practice.letGo());
+  });
+  return practice;
+}
+
 /** A camera that a person has moved is their own. */
 function keepOwnCamera(scene: BoneScene, view: ViewSettings): void {
   scene.onInteraction = () => {
@@ -133,16 +153,36 @@ function keepOwnCamera(scene: BoneScene, view: ViewSettings): void {
 }
 
 /** Where the reamer and the bone are, and what the reamer does. */
-function showReamer(store: Store, scene: BoneScene): void {
+function showReamer(store: Store, scene: BoneScene, comments: CommentNotices): void {
   effect(() => scene.setToolPose(store.telemetry.value?.worldFromTool ?? null));
   effect(() => scene.setBonePose(store.telemetry.value?.worldFromBoneRest ?? null));
   effect(() => scene.setToolAction(toolAction(store.telemetry.value, store.upToDate.value)));
   effect(() => scene.setTouching(store.touching.value));
   effect(() => {
-    if (scene.headset.worn.value) scene.headset.show(headsetMessage(store));
+    if (scene.headset.worn.value) {
+      scene.headset.show(headsetMessage(store, comments.shown.value.at(-1)?.comment ?? null));
+    }
   });
   layReamerAside(store);
   effect(() => scene.setToolShown(store.reamerShown.value));
+}
+
+/** Who takes part in a study signs comments by its code. */
+function noticeComments(
+  identity: Identity,
+  watched: { store: Store; practice: PracticeStore; annotations: LiveAnnotations },
+): CommentNotices {
+  const ownNames = () => {
+    const { user } = identity.visitor.peek() ?? {};
+    const code = watched.store.watched.peek()?.participant ?? '';
+    return [user?.name ?? '', user?.display_name ?? '', code];
+  };
+  return new CommentNotices({ ...watched, ownNames });
+}
+
+function studyLine(store: Store, api: Api): StudyLine {
+  const studies = new StudyApi(window.location.origin);
+  return new StudyLine({ store, study: (id) => studies.study(id), earlier: (session) => api.earlierInStudy(session) });
 }
 
 function watchForFeel(
@@ -228,13 +268,13 @@ function makeTutorial(parts: Omit<TutorialParts, 'view'>, scene: BoneScene, view
   return new Tutorial({ ...parts, view: { eye: () => scene.eye(), begin, end } });
 }
 
-/** How somebody wants to see the bone, and who knows the tutorial; on a server without users both are the browser's. */
-function keepForPerson(identity: Identity, view: ViewSettings, tutorial: Tutorial): void {
-  let end: () => void = () => undefined;
+/** How somebody wants to see the bone and to practise, and who knows the tutorial; without users all are the browser's. */
+function keepForPerson(identity: Identity, kept: readonly [ViewSettings, PracticeChoice], tutorial: Tutorial): void {
+  let ends: readonly (() => void)[] = [];
   effect(() => {
     const person = identity.userId.value ?? 'anyone';
-    end();
-    end = untracked(() => view.keepFor(person, window.localStorage));
+    for (const end of ends) end();
+    ends = untracked(() => kept.map((one) => one.keepFor(person, window.localStorage)));
     untracked(() => tutorial.keepFor(person, window.localStorage));
   });
 }

@@ -2,6 +2,7 @@ import type { Signal } from '@preact/signals';
 
 import { IdentityContext } from '../panels/common/site_nav';
 import type { Identity } from '../state/identity';
+import { beginPractice } from '../state/practice_choice';
 import { addressOfRoute, type Route } from '../state/route';
 import { appText } from '../text/app_text';
 import { noAnswer } from '../wire/rest';
@@ -67,7 +68,10 @@ function Page({ route, live, identity }: { route: Route; live: LivePageParts; id
     case 'case':
       if (!may.readCases) return <NotForYou />;
       return casePages.show(({ CasePages }) => (
-        <CasePages route={route} startReaming={(caseId, theatre) => startReaming(caseId, theatre, live)} />
+        <CasePages
+          route={route}
+          reaming={{ level: live.choice.level, start: (caseId) => startReaming(caseId, live) }}
+        />
       ));
     case 'sessions':
       if (!may.ream) return <NotForYou />;
@@ -112,18 +116,13 @@ function NotForYou() {
 }
 
 /** Makes a session on a case, takes the reamer into the hand, and shows it; throws an Error with words when it fails. */
-async function startReaming(
-  caseId: string,
-  theatre: boolean,
-  { watcher, practice, store }: LivePageParts,
-): Promise<void> {
+async function startReaming(caseId: string, { watcher, practice, choice, store }: LivePageParts): Promise<void> {
   if (store.replayId.value !== null) watcher.leaveReplay();
-  const sessionId = await watcher.practise(caseId, theatre);
+  const sessionId = await beginPractice({ watcher, practice, choice }, caseId);
   if (sessionId === null) {
     const reason = store.problem.value ?? noAnswer;
     store.problem.value = null;
     throw new Error(reason);
   }
   window.location.hash = '';
-  practice.steer(sessionId);
 }

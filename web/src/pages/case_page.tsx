@@ -13,15 +13,16 @@ import { SurfaceView } from '../scene/surface_view';
 import { useShownName } from '../panels/common/use_shown_name';
 import type { CaseController } from '../state/case/case_controller';
 import { ViewMarks } from '../state/case/view_marks';
+import type { Reaming } from '../state/practice_choice';
 import { Button } from '../panels/common/button';
 
 interface Parts {
   controller: CaseController;
-  startReaming: (caseId: string, theatre: boolean) => Promise<void>;
+  reaming: Reaming;
 }
 
 /** One case: its slices and surface, and the steps from the CT to the reamer. */
-export function CasePage({ controller, startReaming }: Parts) {
+export function CasePage({ controller, reaming }: Parts) {
   const views = useMemo(() => new CaseViews(controller), [controller]);
   useEffect(() => () => views.dispose(), [views]);
   const enlarged = useSignal<ViewId | null>(null);
@@ -61,7 +62,7 @@ export function CasePage({ controller, startReaming }: Parts) {
         )}
       </main>
       {details.ct !== null && <WindowBar controller={controller} />}
-      <StepsPanel controller={controller} startReaming={startReaming} />
+      <StepsPanel controller={controller} reaming={reaming} />
     </div>
   );
 }

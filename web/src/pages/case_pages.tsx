@@ -6,6 +6,7 @@ import { useIdentity } from '../panels/common/site_nav';
 import { CaseController } from '../state/case/case_controller';
 import { CaseListController } from '../state/case/new_case';
 import { addressOfRoute, type Route } from '../state/route';
+import type { Reaming } from '../state/practice_choice';
 import { CaseApi } from '../wire/case_api';
 import { CasePage } from './case_page';
 import { CasesPage } from './cases_page';
@@ -19,21 +20,19 @@ const cases = new CaseListController(api, window.localStorage, (caseId) => {
 
 interface Parts {
   route: Route;
-  /** Makes a session on the case and shows it; throws an Error with words. */
-  startReaming: (caseId: string, theatre: boolean) => Promise<void>;
+  reaming: Reaming;
 }
 
 /** The pages of the cases, loaded when one of them is first opened. */
-export function CasePages({ route, startReaming }: Parts) {
+export function CasePages({ route, reaming }: Parts) {
   const { editCases } = useIdentity().may.value;
-  if (route.kind === 'case')
-    return <OneCase key={route.id} id={route.id} mayEdit={editCases} startReaming={startReaming} />;
-  return <CasesPage controller={cases} mayEdit={editCases} startReaming={startReaming} />;
+  if (route.kind === 'case') return <OneCase key={route.id} id={route.id} mayEdit={editCases} reaming={reaming} />;
+  return <CasesPage controller={cases} mayEdit={editCases} reaming={reaming} />;
 }
 
-type OneCaseParts = { id: string; mayEdit: boolean; startReaming: Parts['startReaming'] };
+type OneCaseParts = { id: string; mayEdit: boolean; reaming: Reaming };
 
-function OneCase({ id, mayEdit, startReaming }: OneCaseParts) {
+function OneCase({ id, mayEdit, reaming }: OneCaseParts) {
   const controller = useMemo(() => new CaseController(api, id, mayEdit), [id, mayEdit]);
   useEffect(() => {
     void controller.open();
@@ -44,5 +43,5 @@ function OneCase({ id, mayEdit, startReaming }: OneCaseParts) {
       controller.leave();
     };
   }, [controller]);
-  return <CasePage controller={controller} startReaming={startReaming} />;
+  return <CasePage controller={controller} reaming={reaming} />;
 }

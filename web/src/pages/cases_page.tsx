@@ -6,18 +6,18 @@ import { CaseTable } from '../panels/case/case_table';
 import { Message } from '../panels/common/fields';
 import { NewCasePanel } from '../panels/case/new_case_panel';
 import type { CaseListController } from '../state/case/new_case';
+import type { Reaming } from '../state/practice_choice';
 
 const readAgainMs = 5000;
 
 interface Parts {
   controller: CaseListController;
   mayEdit: boolean;
-  /** Makes a session on the case and shows it; throws an Error with words. */
-  startReaming: (caseId: string, theatre: boolean) => Promise<void>;
+  reaming: Reaming;
 }
 
 /** All cases, and the making of a new one. */
-export function CasesPage({ controller, mayEdit, startReaming }: Parts) {
+export function CasesPage({ controller, mayEdit, reaming }: Parts) {
   useEffect(() => {
     controller.listFresh.value = false;
     controller.plans.forget();
@@ -39,7 +39,7 @@ export function CasesPage({ controller, mayEdit, startReaming }: Parts) {
         )}
         {cases === null && problem === null && <p class="soft">{caseText.loadingCases}</p>}
         {cases?.length === 0 && <p class="soft">{caseText.noCases}</p>}
-        {cases !== null && cases.length > 0 && <CaseTable {...{ controller, mayEdit, startReaming }} />}
+        {cases !== null && cases.length > 0 && <CaseTable {...{ controller, mayEdit, reaming }} />}
       </main>
       {mayEdit && <NewCasePanel controller={controller} />}
     </div>

@@ -6,6 +6,7 @@ import { useEffect, useRef } from 'preact/hooks';
 import { Button } from '../panels/common/button';
 import { PageHeader } from '../panels/common/page_header';
 import { ProblemBanner } from '../panels/common/problem_banner';
+import { beginPractice } from '../state/practice_choice';
 import { addressOfRoute } from '../state/route';
 import { lastCodes } from '../state/study/feel_place';
 import { feelText } from '../text/feel_text';
@@ -32,13 +33,9 @@ export function FeelSessionPage({ live, session }: Parts) {
   );
 }
 
-function Ended({ live: { store, watcher, practice }, session }: Parts) {
+function Ended({ live: { store, watcher, practice, choice }, session }: Parts) {
   const answer = useRef<HTMLAnchorElement>(null);
   useEffect(() => answer.current?.focus(), []);
-  const practise = async () => {
-    const sessionId = await watcher.practise();
-    if (sessionId !== null) practice.steer(sessionId);
-  };
   const keepCode = () => {
     if (session.study !== null && session.participant !== null) lastCodes.set(session.study, session.participant);
   };
@@ -58,7 +55,11 @@ function Ended({ live: { store, watcher, practice }, session }: Parts) {
         >
           {feelText.answerNow}
         </a>
-        <Button testId="practise" disabled={store.busy.value} onClick={() => void practise()}>
+        <Button
+          testId="practise"
+          disabled={store.busy.value}
+          onClick={() => void beginPractice({ watcher, practice, choice })}
+        >
           {feelText.outside}
         </Button>
       </div>

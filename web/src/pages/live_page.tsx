@@ -1,6 +1,6 @@
 import { DepthMeter } from '../panels/live/depth_meter';
 import { Figures } from '../panels/live/figures';
-import { type ReadonlySignal, type Signal, signal } from '@preact/signals';
+import { type ReadonlySignal, signal } from '@preact/signals';
 
 import { ForcePlots } from '../panels/live/force_plot';
 import { lazyPart } from '../panels/common/lazy_part';
@@ -21,16 +21,19 @@ import { SessionList } from '../panels/live/session_list';
 import { TutorialPanel } from '../panels/live/tutorial_panel';
 import type { BoneScene } from '../scene/scene';
 import type { Alarms } from '../state/alarms';
+import type { CommentNotices } from '../state/comment_notices';
 import type { Health } from '../state/health';
 import type { Latency } from '../state/latency';
 import type { LiveCase } from '../state/live_case';
 import type { LiveAnnotations } from '../state/live_annotations';
 import type { Practice } from '../state/practice';
+import type { PracticeChoice } from '../state/practice_choice';
 import type { PracticeStore } from '../state/practice_store';
 import type { ResultWatch } from '../state/result_watch';
 import type { Sound } from '../state/sound';
 import type { Store } from '../state/store';
 import type { Tutorial } from '../state/tutorial_guide';
+import type { StudyLine } from '../state/study/study_line';
 import type { FeelWatch } from '../state/study/feel_watch';
 import type { ViewSettings } from '../state/view_settings';
 import type { Watcher } from '../state/watcher';
@@ -50,7 +53,9 @@ export interface LivePageParts {
   latency: Latency;
   health: ReadonlySignal<Health | null>;
   annotations: LiveAnnotations;
-  theatreWanted: Signal<boolean>;
+  comments: CommentNotices;
+  study: StudyLine;
+  choice: PracticeChoice;
   practice: Practice;
   practiceStore: PracticeStore;
   tutorial: Tutorial;
@@ -68,9 +73,9 @@ export function LivePage(parts: LivePageParts) {
   const toPicture = () => scene.canvas.focus({ preventScroll: true });
   return (
     <div class={`page ${bar}`}>
-      <Header store={store} />
+      <Header store={store} study={parts.study} />
       {guided && <TutorialPanel {...{ store, tutorial }} practice={practiceStore} toPicture={toPicture} />}
-      <Picture {...{ store, scene, view, alarms }} practice={practiceStore} guided={guided}>
+      <Picture {...{ store, scene, view, alarms }} comments={parts.comments} practice={practiceStore} guided={guided}>
         <DepthMeter store={store} />
         <LiveStrip health={health} sound={sound} slicesOpen={slicesOpen} />
         {slicesOpen.value &&

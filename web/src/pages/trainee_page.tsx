@@ -5,7 +5,8 @@ import { useLiveKeys } from '../panels/picture/live_keys';
 import { DepthMeter } from '../panels/live/depth_meter';
 import { Picture } from '../panels/live/picture';
 import { ResultCard } from '../panels/live/result_card';
-import { DriveButtons, PauseButton } from '../panels/live/practice_bar';
+import { DriveButtons, PauseButton, WithdrawButton } from '../panels/live/practice_bar';
+import { StudyLine } from '../panels/live/study_line';
 import { SoundButton } from '../panels/picture/sound_button';
 import { addressOfReplay } from '../state/replay_address';
 import { appText } from '../text/app_text';
@@ -19,7 +20,10 @@ export function TraineePage(parts: LivePageParts) {
   useLiveKeys(useMemo(() => ({ f: () => void fullScreen() }), []));
   return (
     <div class="trainee-page" data-testid="trainee-page" data-theatre={theatre}>
-      <Picture store={store} practice={practiceStore} scene={scene} view={view} alarms={alarms} bare={true}>
+      <Picture {...{ store, scene, view, alarms }} comments={parts.comments} practice={practiceStore} bare={true}>
+        <div class="trainee-study">
+          <StudyLine study={parts.study} />
+        </div>
         {!theatre && <DepthMeter store={store} />}
         <div class="trainee-bar" role="group" aria-label={appText.practice}>
           {practiceStore.steering.value && <HoldButtons {...parts} />}
@@ -59,6 +63,7 @@ function HoldButtons({ practiceStore, scene }: LivePageParts) {
   return (
     <>
       <DriveButtons hand={hand} onDone={toPicture} />
+      <WithdrawButton hand={hand} onDone={toPicture} />
       <PauseButton
         hand={hand}
         onDone={() => {

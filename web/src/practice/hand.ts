@@ -2,6 +2,7 @@ import { signal, type Signal } from '@preact/signals';
 
 import type { SteeringInput } from '../wire/device_messages';
 import { leanMaxDeg, limited, sidewaysMaxMm, type Beside, type PlanFrame } from './plan_frame';
+import type { StartPose } from './start_pose';
 
 /** Force that a full push reaches, simulated N, as the person chooses it. */
 export const levelLeastN = 4;
@@ -11,18 +12,18 @@ export const levelStepN = 4;
 const levelAtFirstN = 52;
 /** A push rises no faster than this; it ends at once. */
 const riseNPerS = 160;
-/** A free hand pushes harder the longer it pushes, and lets go as a hand does. */
-const freeRiseNPerS = 25;
-const freeFallNPerS = 60;
-/** Where a free hand begins beside the plan. */
-const freeStartMm: Between = { least: 4, most: 8 };
-const freeLeanDeg: Between = { least: 5, most: 10 };
-
-interface Between {
-  least: number;
-  most: number;
-}
+/** A hand whose pressure is its own pushes harder the longer it pushes, and lets go as a hand does. */
+const ownRiseNPerS = 25;
+const ownFallNPerS = 60;
 export const withdrawN = 20;
+
+/** How a hand starts into a session. */
+export interface HandStart {
+  /** Null: on the plan. */
+  pose: StartPose | null;
+  ownPressure: boolean;
+}
+const givenAll: HandStart = { pose: null, ownPressure: false };
 
 /**
  * What the person wants the simulated hand to do, gathered from mouse, touch, keys, buttons and gamepad: whichever moved
@@ -43,17 +44,20 @@ export class Hand {
   private readonly withdrawals = new Map<string, number>();
   /** Where the tool was put on purpose, not only in passing with the mouse. */
   private placedAt: Beside = { superior: 0, anterior: 0 };
-  private free = false;
+  /** The plan has to be found: there is no key that leads back to it. */
+  private findsPlan = false;
+  private ownPressure = false;
 
   /**
-   * A new session, everything off: over the plan, or as a `free` hand that is given nothing. That one begins beside the
-   * plan and leaning, by chance, and decides by itself how hard it pushes.
+   * A new session, everything off: over the plan, or where `pose` says. With a pressure of its own the hand decides by
+   * the time that it pushes how hard.
    */
-  reset(free = false, random: () => number = Math.random): void {
+  reset({ pose, ownPressure }: HandStart = givenAll): void {
     this.letGo();
-    this.free = free;
-    this.place.value = this.placedAt = free ? somewhere(freeStartMm, random) : onPlan;
-    this.lean.value = free ? somewhere(freeLeanDeg, random) : onPlan;
+    this.findsPlan = pose !== null;
+    this.ownPressure = ownPressure;
+    this.place.value = this.placedAt = pose?.place ?? onPlan;
+    this.lean.value = pose?.lean ?? onPlan;
     this.irrigating.value = false;
     this.paused.value = false;
     this.held.value = true;
@@ -64,13 +68,13 @@ export class Hand {
     setShare(this.pushes, source, share);
     if (share > 0) this.placedAt = this.place.value;
     const wantedN = this.wantedN();
-    if (wantedN < 0 || (wantedN === 0 && !this.free)) this.pushN.value = wantedN;
+    if (wantedN < 0 || (wantedN === 0 && !this.ownPressure)) this.pushN.value = wantedN;
   }
 
   withdraw(source: string, share: number): void {
     setShare(this.withdrawals, source, share);
     const wantedN = this.wantedN();
-    if (wantedN < 0 || !this.free) this.pushN.value = Math.min(this.pushN.value, Math.max(wantedN, 0));
+    if (wantedN < 0 || !this.ownPressure) this.pushN.value = Math.min(this.pushN.value, Math.max(wantedN, 0));
   }
 
   /** `onPurpose`: to stay there, also when the pointer leaves the picture. */
@@ -88,9 +92,9 @@ export class Hand {
     this.lean.value = limited(lean, leanMaxDeg);
   }
 
-  /** Back onto the plan, which a free hand has to find. */
+  /** Back onto the plan, unless it has to be found. */
   goHome(): void {
-    if (this.free) return;
+    if (this.findsPlan) return;
     this.putAt(onPlan, true);
     this.leanTo(onPlan);
   }
@@ -131,10 +135,10 @@ export class Hand {
   step(seconds: number): void {
     const wanted = this.wantedN();
     const now = Math.max(this.pushN.value, 0);
-    if (wanted < 0 || (wanted === 0 && !this.free)) this.pushN.value = wanted;
+    if (wanted < 0 || (wanted === 0 && !this.ownPressure)) this.pushN.value = wanted;
     else if (wanted >= now)
-      this.pushN.value = Math.min(wanted, now + (this.free ? freeRiseNPerS : riseNPerS) * seconds);
-    else this.pushN.value = this.free ? Math.max(wanted, now - freeFallNPerS * seconds) : wanted;
+      this.pushN.value = Math.min(wanted, now + (this.ownPressure ? ownRiseNPerS : riseNPerS) * seconds);
+    else this.pushN.value = this.ownPressure ? Math.max(wanted, now - ownFallNPerS * seconds) : wanted;
   }
 
   input(plan: PlanFrame): SteeringInput {
@@ -153,7 +157,7 @@ export class Hand {
     if (!this.held.value || this.paused.value) return 0;
     const back = Math.max(0, ...this.withdrawals.values());
     if (back > 0) return -back * withdrawN;
-    return Math.max(0, ...this.pushes.values()) * (this.free ? levelMostN : this.levelN.value);
+    return Math.max(0, ...this.pushes.values()) * (this.ownPressure ? levelMostN : this.levelN.value);
   }
 
   private stopPushing(): void {
@@ -164,12 +168,6 @@ export class Hand {
 }
 
 const onPlan: Beside = { superior: 0, anterior: 0 };
-
-function somewhere({ least, most }: Between, random: () => number): Beside {
-  const far = least + (most - least) * random();
-  const way = 2 * Math.PI * random();
-  return { superior: far * Math.cos(way), anterior: far * Math.sin(way) };
-}
 
 function setShare(shares: Map<string, number>, source: string, share: number): void {
   if (share > 0) shares.set(source, Math.min(share, 1));

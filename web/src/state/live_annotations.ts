@@ -1,5 +1,6 @@
 import { computed, effect, signal } from '@preact/signals';
 
+import type { ChangeHandlers, ChangeSocket } from '../wire/change_socket';
 import type { ReviewApi } from '../wire/review_api';
 import { Remote } from './remote';
 import type { Store } from './store';
@@ -12,7 +13,8 @@ const readAgainMs = 5000;
 export class LiveAnnotations {
   /** The moment that an annotation being written is about: when writing began, s. Null: nothing is written. */
   readonly momentS = signal<number | null>(null);
-  private readonly read: Remote<{ session: string; annotations: Annotation[] }>;
+  /** As the server last said them, the oldest first. */
+  readonly read: Remote<{ session: string; annotations: Annotation[] }>;
 
   /** The watched session's, the newest first. */
   readonly annotations = computed((): readonly Annotation[] => {
@@ -20,9 +22,13 @@ export class LiveAnnotations {
     return known === null || known.session !== this.store.sessionId.value ? [] : [...known.annotations].reverse();
   });
 
+  /** Made on this page. */
+  private readonly own = new Set<string>();
+
   constructor(
     private readonly store: Store,
     private readonly api: Pick<ReviewApi, 'annotations' | 'annotate'>,
+    private readonly socketFor: (handlers: ChangeHandlers) => Pick<ChangeSocket, 'start' | 'stop'> = () => silent,
   ) {
     this.read = new Remote(async () => {
       const session = store.sessionId.peek() ?? '';
@@ -50,6 +56,33 @@ export class LiveAnnotations {
     return () => clearInterval(timer);
   }
 
+  /** Hears of each annotation as it is made, until the result is called. */
+  hearAtOnce(): () => void {
+    const socket = this.socketFor({
+      onChange: ({ kind, id, change }) => {
+        const session = this.store.sessionId.peek();
+        const annotated = kind === 'session' && change === 'annotated' && id === session;
+        if (annotated || kind === 'hello' || kind === 'missed') this.readNow();
+      },
+      onLost: () => undefined,
+    });
+    socket.start();
+    const stop = this.follow();
+    return () => {
+      socket.stop();
+      stop();
+    };
+  }
+
+  private readNow(): void {
+    const { store } = this;
+    if (store.sessionId.peek() !== null && !store.replaying.peek() && begun(store)) void this.read.read();
+  }
+
+  isOwn(annotation: Annotation): boolean {
+    return this.own.has(keyOf(annotation));
+  }
+
   /** Somebody begins to write: what is written is about this moment. */
   begin(): void {
     this.momentS.value ??= (this.store.telemetry.peek()?.tick ?? 0) / 1000;
@@ -63,12 +96,20 @@ export class LiveAnnotations {
     const session = this.store.sessionId.peek();
     if (session === null || text === '') return false;
     this.begin();
-    const kept = await this.read.act(() => this.api.annotate(session, text, this.momentS.peek() ?? 0));
+    const kept = await this.read.act(async () => {
+      const made = await this.api.annotate(session, text, this.momentS.peek() ?? 0);
+      this.own.add(keyOf(made));
+      return made;
+    });
     if (kept === null) return false;
     this.momentS.value = null;
     return true;
   }
 }
+
+const keyOf = ({ utc, at_s, words }: Annotation): string => `${utc} ${at_s} ${words}`;
+
+const silent = { start: () => undefined, stop: () => undefined };
 
 /** A session that nobody has started has no recording to annotate. */
 const begun = (store: Store): boolean => store.sessionState.value !== 'created' && store.sessionState.value !== null;

@@ -1,6 +1,8 @@
+import { levels } from '../practice/level';
 import type { Session } from '../wire/rest_types';
 import type { Permissions } from './permissions';
 import type { Practice } from './practice';
+import { beginPractice, type PracticeChoice } from './practice_choice';
 import type { Watcher } from './watcher';
 
 /** The next one of its study; the same again; or practice on the same case. */
@@ -31,20 +33,25 @@ export function nextSession(session: Session, person: Person): NextSession | nul
 
 interface Means {
   watcher: Pick<Watcher, 'practise' | 'repeat' | 'train'>;
-  practice: Pick<Practice, 'steer'>;
+  practice: Pick<Practice, 'steer' | 'levelOf'>;
+  choice: Pick<PracticeChoice, 'caseId' | 'level' | 'choose'>;
   may: Pick<Permissions, 'teach'>;
 }
 
 /** Begins it, and takes the reamer into the hand where a browser steers. Problems go to the store. */
-export async function beginNext(next: NextSession, session: Session, { watcher, practice, may }: Means): Promise<void> {
+export async function beginNext(next: NextSession, session: Session, means: Means): Promise<void> {
+  const { watcher, practice, may } = means;
   if (next === 'attempt') {
     const { study, participant } = session;
     const made = await watcher.train(study ?? '', may.teach ? participant : null, session.case);
     if (made?.device.name === 'browser') practice.steer(made.id);
-  } else if (next === 'again' && session.device.name !== 'browser') {
+  } else if (next === 'practise') {
+    await beginPractice(means, session.case);
+  } else if (session.device.name !== 'browser') {
     await watcher.repeat(session.id);
   } else {
-    const id = await watcher.practise(session.case, session.theatre);
-    if (id !== null) practice.steer(id);
+    const level = practice.levelOf(session);
+    const id = await watcher.practise(session.case, levels[level].theatre);
+    if (id !== null) practice.steer(id, level);
   }
 }

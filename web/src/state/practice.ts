@@ -2,11 +2,15 @@ import { batch, effect } from '@preact/signals';
 
 import { GamepadHand } from '../practice/gamepad_hand';
 import { KeyHand } from '../practice/key_hand';
+import { levelOf, type LevelName, levels } from '../practice/level';
 import { PointerHand, type SteeredView } from '../practice/pointer_hand';
 import { Rumble } from '../practice/rumble';
+import { randomOf, startPose } from '../practice/start_pose';
 import { DeviceLink, type DeviceLinkState } from '../wire/device_link';
 import type { DeviceSocket } from '../wire/device_socket';
 import { appText } from '../text/app_text';
+import type { Session } from '../wire/rest_types';
+import { LevelMemory } from './level_memory';
 import type { PracticeStore } from './practice_store';
 import type { Store } from './store';
 
@@ -33,6 +37,7 @@ export class Practice {
   private readonly rumble = new Rumble();
   private timer: ReturnType<typeof setInterval> | undefined;
   private steppedMs = 0;
+  private readonly levels: LevelMemory;
 
   constructor(
     private readonly practice: PracticeStore,
@@ -51,6 +56,7 @@ export class Practice {
         this.rumble.feel(feedback.vibrationG);
       },
     });
+    this.levels = new LevelMemory(window.remembered);
     const plan = () => practice.plan.value;
     new PointerHand(surface, practice.hand, view, plan);
     this.keys = new KeyHand(surface, practice.hand, view, plan);
@@ -87,16 +93,23 @@ export class Practice {
     this.window.remembered.removeItem(rememberedKey);
   }
 
+  /** The level that a session has, or that another one like it should have. */
+  levelOf(session: Session): LevelName {
+    return levelOf(session, this.levels.of(session));
+  }
+
   /**
-   * Steers a session from here; another page that does so is sent away by the server. In theatre the hand is given
-   * nothing.
+   * Steers a session from here; another page that does so is sent away by the server. Without a `level` it is the one
+   * that the session has.
    */
-  steer(sessionId: string): void {
+  steer(sessionId: string, level: LevelName = this.levelOfWatched(sessionId)): void {
     this.window.remembered.setItem(rememberedKey, sessionId);
-    const session = this.store.watched.value;
-    this.practice.hand.reset(session?.id === sessionId && session.theatre);
+    this.levels.keep(sessionId, level);
+    const { ownPressure } = levels[level];
+    this.practice.hand.reset({ pose: startPose(levels[level], randomOf(sessionId)), ownPressure });
     batch(() => {
       this.practice.sessionId.value = sessionId;
+      this.practice.level.value = level;
       this.practice.lastSessionId.value = sessionId;
       this.practice.feedback.value = null;
     });
@@ -104,6 +117,11 @@ export class Practice {
     clearInterval(this.timer);
     this.steppedMs = this.window.nowMs();
     this.timer = setInterval(() => this.step(), stepMs);
+  }
+
+  private levelOfWatched(sessionId: string): LevelName {
+    const session = this.store.watched.value;
+    return session?.id === sessionId ? this.levelOf(session) : 'guided';
   }
 
   /** The session goes on without this hand. */

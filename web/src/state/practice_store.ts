@@ -2,6 +2,7 @@ import { computed, signal } from '@preact/signals';
 
 import { Hand } from '../practice/hand';
 import { LastInput } from '../practice/last_input';
+import { type LevelName, levels } from '../practice/level';
 import { PlanFrame } from '../practice/plan_frame';
 import type { Feedback } from '../wire/device_messages';
 import type { DeviceLinkState } from '../wire/device_link';
@@ -16,6 +17,8 @@ export class PracticeStore {
   readonly sessionId = signal<string | null>(null);
   /** The one that it steered last. */
   readonly lastSessionId = signal<string | null>(null);
+  /** How much is given in the session that is, or was last, steered. */
+  readonly level = signal<LevelName>('guided');
   readonly link = signal<DeviceLinkState>({ kind: 'connecting' });
   /** What the server last answered; null while nothing is known. */
   readonly feedback = signal<Feedback | null>(null);
@@ -29,6 +32,8 @@ export class PracticeStore {
     return new PlanFrame(hello);
   });
   readonly steering = computed(() => this.plan.value !== null);
+  /** Whether the page says what to do: always to who only watches. */
+  readonly hints = computed(() => this.sessionId.value === null || levels[this.level.value].hints);
   /** How far the aim is from the planned axis, mm. */
   readonly offPlanMm = computed(() => Math.hypot(this.hand.place.value.superior, this.hand.place.value.anterior));
 

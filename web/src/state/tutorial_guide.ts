@@ -3,13 +3,13 @@ import { batch, computed, effect, type ReadonlySignal, signal, untracked } from 
 import type { InputKind } from '../practice/last_input';
 import { usualThrustN } from './alarms';
 import type { Practice } from './practice';
+import { demoCase } from './practice_choice';
 import type { PracticeStore } from './practice_store';
 import type { Store } from './store';
 import { advanced, type Astray, type StepName, stepNames, strayed } from './tutorial';
 import { freshMemory, snapshotOf, type TutorialEye, type TutorialMemory } from './tutorial_snapshot';
 import type { Watcher } from './watcher';
 
-const demoCase = 'demo';
 /** Full push of a first touch, N. */
 const gentleN = 12;
 /** Where the reamer waits beside the plan, so that there is something to aim. */
@@ -130,7 +130,7 @@ export class Tutorial {
       this.session.value = id;
       this.step.value = 0;
       this.astray.value = null;
-      if (this.parts.practiceStore.sessionId.peek() !== id) this.parts.practice.steer(id);
+      if (this.parts.practiceStore.sessionId.peek() !== id) this.parts.practice.steer(id, 'guided');
     });
   }
 

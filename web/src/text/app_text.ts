@@ -65,7 +65,6 @@ export const appText = {
   nextAttempt: 'Next session in this study',
   practiseOutside: 'Practise outside the study',
   practiseOutsideHint: 'This session does not count for the study.',
-  inStudy: 'in a study',
   practising: 'Practice in progress',
   takeOver: 'Take control',
   sessionLeft: 'The last user has left this session.',

@@ -96,8 +96,4 @@ export const liveText = {
   leaveTrainee: 'Show panels',
   fullScreen: 'Full screen',
   endTheatre: 'End session',
-  theatreMode: 'Theatre mode',
-  theatreShort: 'exam conditions: no gauges, plan or help',
-  theatreHint:
-    'Only sound and force guide you, as in an operation. The reamer starts off the plan and tilted. The longer you push, the higher the force.',
 };

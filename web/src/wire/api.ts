@@ -3,6 +3,8 @@ import type { Metrics, PlaybackChange, Replay, Session } from './rest_types';
 
 export { ApiError } from './rest';
 
+type EarlierInStudy = { study: string; participant: string; created_utc: string };
+
 /** Calls of the REST interface about what is watched; `base` is the server's origin. */
 export class Api {
   private readonly rest: RestClient;
@@ -30,6 +32,12 @@ export class Api {
       ...(participant === null ? {} : { participant }),
     };
     return this.rest.json('post', '/api/v1/sessions', { body });
+  }
+  /** How many sessions of its study its participant had before it. */
+  async earlierInStudy({ study, participant, created_utc }: EarlierInStudy): Promise<number> {
+    // The server takes whole seconds.
+    const to = `${created_utc.slice(0, 19)}Z`;
+    return (await this.rest.json('get', '/api/v1/sessions', { query: { study, participant, to, limit: 1 } })).total;
   }
   /** Throws, in the server's words, while it still prepares for sessions. */
   async ready(): Promise<void> {

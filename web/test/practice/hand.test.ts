@@ -60,20 +60,29 @@ describe('Hand', () => {
     expect(hand.pushN.value).toBe(levelMostN);
   });
 
-  it('is given nothing when it is free: it begins beside the plan, leans, and pushes harder the longer it pushes', () => {
-    for (const chance of [0, 0.37, 0.999]) {
-      hand.reset(true, () => chance);
-      const away = Math.hypot(hand.place.value.superior, hand.place.value.anterior);
-      const leans = Math.hypot(hand.lean.value.superior, hand.lean.value.anterior);
-      expect(away).toBeGreaterThanOrEqual(4 - 1e-9);
-      expect(away).toBeLessThanOrEqual(8 + 1e-9);
-      expect(leans).toBeGreaterThanOrEqual(5 - 1e-9);
-      expect(leans).toBeLessThanOrEqual(10 + 1e-9);
-    }
-    const begun = hand.place.value;
+  it('starts where it is put beside the plan, and no key leads back to it', () => {
+    const pose = { place: { superior: 3, anterior: -2 }, lean: { superior: -4, anterior: 1 } };
+    hand.reset({ pose, ownPressure: false });
     hand.goHome();
-    expect(hand.place.value).toEqual(begun);
+    expect(hand.place.value).toEqual(pose.place);
+    expect(hand.lean.value).toEqual(pose.lean);
+    hand.setLevel(40);
+    hand.takeHold();
+    hand.push('mouse', 1);
+    wait(60);
+    expect(hand.pushN.value).toBe(40);
 
+    hand.reset();
+    expect(hand.place.value).toEqual({ superior: 0, anterior: 0 });
+    expect(hand.lean.value).toEqual({ superior: 0, anterior: 0 });
+    hand.putAt(pose.place, true);
+    hand.goHome();
+    expect(hand.place.value).toEqual({ superior: 0, anterior: 0 });
+  });
+
+  it('with a pressure of its own pushes harder the longer it pushes', () => {
+    hand.reset({ pose: null, ownPressure: true });
+    hand.setLevel(40);
     hand.takeHold();
     hand.push('mouse', 1);
     wait(2);
@@ -91,10 +100,6 @@ describe('Hand', () => {
     hand.withdraw('mouse', 1);
     wait(0.1);
     expect(hand.pushN.value).toBe(-withdrawN);
-
-    hand.reset();
-    expect(hand.place.value).toEqual({ superior: 0, anterior: 0 });
-    expect(hand.lean.value).toEqual({ superior: 0, anterior: 0 });
   });
 
   it('does nothing more once it lets go, and all has to be pressed anew', () => {

@@ -3,6 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { headsetMessage } from '../../src/scene/headset_text';
 import { Store } from '../../src/state/store';
 import { hello, telemetry } from '../wire/fake_messages';
+import { someAnnotation } from '../wire/some_answers';
 
 function watching(): Store {
   const store = new Store();
@@ -33,5 +34,14 @@ describe('what the wearer of a headset reads', () => {
     expect(headsetMessage(store).warns).toBe(true);
     expect(headsetMessage(store).text).not.toMatch(/\d/);
     expect(headsetMessage(new Store()).warns).toBe(true);
+  });
+
+  it('is a comment for a while, cut to a line, but never in place of a warning', () => {
+    const comment = { ...someAnnotation(1, 'Tilt less'), author: 'Ines' };
+    expect(headsetMessage(watching(), comment)).toEqual({ text: 'Ines: Tilt less', warns: false });
+    const { text } = headsetMessage(watching(), { ...comment, words: 'less '.repeat(40) });
+    expect(text).toMatch(/^Ines: .*…$/);
+    expect(text.length).toBeLessThanOrEqual(60);
+    expect(headsetMessage(new Store(), comment).warns).toBe(true);
   });
 });

@@ -1,5 +1,7 @@
+import { signal } from '@preact/signals';
 import { describe, expect, it, vi } from 'vitest';
 
+import type { LevelName } from '../../src/practice/level';
 import { beginNext, goesOnInStudy, nextSession } from '../../src/state/next_session';
 import { permissionsOf } from '../../src/state/permissions';
 import type { Session } from '../../src/wire/rest_types';
@@ -29,17 +31,28 @@ describe('what comes after a session', () => {
     expect(goesOnInStudy(null, trainee)).toBe(false);
   });
 
-  it('is on the same case and in the same mode, in the hand of this page', async () => {
+  it('is on the same case and at the same level, in the hand of this page', async () => {
     const watcher = {
       practise: vi.fn(() => Promise.resolve('next')),
       repeat: vi.fn(() => Promise.resolve('next')),
       train: vi.fn(() => Promise.resolve(ended({ id: 'next' }))),
     };
-    const practice = { steer: vi.fn() };
-    const means = { watcher, practice, may: permissionsOf('trainee') };
+    let level: LevelName = 'exam';
+    const practice = { steer: vi.fn(), levelOf: () => level };
+    const choice = { caseId: signal('demo'), level: signal<LevelName>('free'), choose: vi.fn() };
+    const means = { watcher, practice, choice, may: permissionsOf('trainee') };
     await beginNext('again', ended(), means);
     expect(watcher.practise).toHaveBeenLastCalledWith('real', true);
-    expect(practice.steer).toHaveBeenLastCalledWith('next');
+    expect(practice.steer).toHaveBeenLastCalledWith('next', 'exam');
+    level = 'own';
+    await beginNext('again', ended({ theatre: false }), means);
+    expect(watcher.practise).toHaveBeenLastCalledWith('real', false);
+    expect(practice.steer).toHaveBeenLastCalledWith('next', 'own');
+    // What somebody else reamed is practised as one has chosen oneself.
+    await beginNext('practise', ended(), means);
+    expect(watcher.practise).toHaveBeenLastCalledWith('real', false);
+    expect(practice.steer).toHaveBeenLastCalledWith('next', 'free');
+    expect(choice.choose).toHaveBeenLastCalledWith('real');
     practice.steer.mockClear();
     await beginNext('again', ended({ device: someDevice('inverse3') }), means);
     expect(watcher.repeat).toHaveBeenLastCalledWith('abcd');

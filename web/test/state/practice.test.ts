@@ -8,6 +8,7 @@ import type { Hello } from '../../src/wire/messages';
 import { FakeSurface, FakeView } from '../practice/fake_surface';
 import { FakeDeviceSocket, feedback, welcome } from '../wire/fake_device_socket';
 import { hello } from '../wire/fake_messages';
+import { someSession } from '../wire/some_answers';
 
 function helloOf(sessionId: string): Hello {
   const message = hello({ sessionId });
@@ -141,5 +142,37 @@ describe('Practice', () => {
     gamepad = null;
     vi.advanceTimersByTime(50);
     expect(socket.inputs.at(-1)?.pushN).toBe(0);
+  });
+
+  it('starts at the level that is asked for, and at the same place after the page was loaded anew', () => {
+    begin();
+    expect(practiceStore.level.value).toBe('guided');
+    expect(practiceStore.hints.value).toBe(true);
+    practice.leave();
+    practice.steer('s1', 'own');
+    const { place } = practiceStore.hand;
+    const started = place.value;
+    expect(Math.hypot(started.superior, started.anterior)).toBeGreaterThan(2.9);
+    expect(practiceStore.hints.value).toBe(false);
+    practice.leave();
+    expect(practiceStore.hints.value).toBe(true);
+    // Loaded anew, the page knows the session by REST, and the level by itself.
+    store.details.value = someSession({ id: 's1' });
+    practice.steer('s1');
+    expect(practiceStore.level.value).toBe('own');
+    expect(place.value).toEqual(started);
+    store.sessionId.value = 's2';
+    store.details.value = someSession({ id: 's2', reset_of: 's1' });
+    practice.steer('s2');
+    expect(practiceStore.level.value).toBe('own');
+    expect(place.value).not.toEqual(started);
+    store.sessionId.value = 's3';
+    store.details.value = someSession({ id: 's3', theatre: true });
+    practice.steer('s3');
+    expect(practiceStore.level.value).toBe('exam');
+    store.sessionId.value = 's4';
+    store.details.value = someSession({ id: 's4' });
+    practice.steer('s4');
+    expect(practiceStore.level.value).toBe('guided');
   });
 });

@@ -5,6 +5,7 @@ import { caseText } from '../../text/case_text';
 import { fixed } from '../../text/format';
 import type { CaseListController } from '../../state/case/new_case';
 import { addressOfRoute } from '../../state/route';
+import type { Reaming } from '../../state/practice_choice';
 import { messageOf } from '../../wire/rest';
 import type { CaseSummary, Plan } from '../../wire/rest_types';
 import { ActionsColumn } from '../common/actions_column';
@@ -14,18 +15,18 @@ import { versionText } from './angle_text';
 interface Parts {
   controller: CaseListController;
   mayEdit: boolean;
-  startReaming: (caseId: string, theatre: boolean) => Promise<void>;
+  reaming: Reaming;
 }
 
 /** All cases, and what can be done with each. */
-export function CaseTable({ controller, mayEdit, startReaming }: Parts) {
+export function CaseTable({ controller, mayEdit, reaming }: Parts) {
   const starting = useSignal(false);
   const cases = controller.cases.value ?? [];
   const stale = controller.listProblem.value !== null || !controller.listFresh.value;
   const practise = async (id: string) => {
     starting.value = true;
     try {
-      await startReaming(id, false);
+      await reaming.start(id);
     } catch (error) {
       controller.listProblem.value = messageOf(error);
     } finally {

@@ -1,23 +1,23 @@
 import { useSignal } from '@preact/signals';
 
 import { caseText } from '../../text/case_text';
-import { liveText } from '../../text/live_text';
 import { messageOf } from '../../wire/rest';
 import type { CaseController } from '../../state/case/case_controller';
 import type { StepName, StepState } from '../../state/case/case_steps';
-import { CheckField, Message } from '../common/fields';
+import type { Reaming } from '../../state/practice_choice';
+import { Message } from '../common/fields';
+import { LevelField } from '../common/level_field';
 import { Button } from '../common/button';
 
 interface Parts {
   controller: CaseController;
   states: Record<StepName, StepState>;
-  startReaming: (caseId: string, theatre: boolean) => Promise<void>;
+  reaming: Reaming;
 }
 
 /** Opens the simulator on this case, with the reamer in the user's hand. */
-export function ReamStep({ controller, states, startReaming }: Parts) {
+export function ReamStep({ controller, states, reaming }: Parts) {
   const starting = useSignal(false);
-  const theatre = useSignal(false);
   const { store } = controller;
   const details = store.details.value;
   const lacking = (['build', 'plan'] as const).filter((name) =>
@@ -29,7 +29,7 @@ export function ReamStep({ controller, states, startReaming }: Parts) {
     store.problem.value = null;
     try {
       await controller.landmarks.saveNow();
-      await startReaming(controller.caseId, theatre.value);
+      await reaming.start(controller.caseId);
     } catch (error) {
       store.problem.value = messageOf(error);
     } finally {
@@ -44,13 +44,7 @@ export function ReamStep({ controller, states, startReaming }: Parts) {
           : caseText.reamHint}
       </p>
       {outdated && lacking.length === 0 && <Message kind="warn">{caseText.reamOutdated}</Message>}
-      <CheckField
-        label={liveText.theatreMode}
-        hint={liveText.theatreHint}
-        checked={theatre.value}
-        testId="case-theatre"
-        onChange={(wanted) => (theatre.value = wanted)}
-      />
+      <LevelField level={reaming.level} testId="case-level" />
       <div class="buttons">
         <Button
           look="main"

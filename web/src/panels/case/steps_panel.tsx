@@ -5,6 +5,7 @@ import { caseText } from '../../text/case_text';
 import { sentence } from '../../text/format';
 import type { CaseController } from '../../state/case/case_controller';
 import { type StepName, type StepState, stepNames, stepStates } from '../../state/case/case_steps';
+import type { Reaming } from '../../state/practice_choice';
 import { BuildStep } from './build_step';
 import { Message } from '../common/fields';
 import { JobProgress } from './job_progress';
@@ -16,11 +17,11 @@ import { SegmentStep } from './segment_step';
 
 interface Parts {
   controller: CaseController;
-  startReaming: (caseId: string, theatre: boolean) => Promise<void>;
+  reaming: Reaming;
 }
 
 /** The steps from a CT to a reamed bone, one of them open. */
-export function StepsPanel({ controller, startReaming }: Parts) {
+export function StepsPanel({ controller, reaming }: Parts) {
   const targets = useMemo(() => new PlanTargetsStore(), []);
   const { store } = controller;
   const details = store.details.value;
@@ -35,7 +36,7 @@ export function StepsPanel({ controller, startReaming }: Parts) {
     landmarks: () => <LandmarksStep controller={controller} />,
     plan: () => <PlanStep controller={controller} targets={targets} />,
     build: () => <BuildStep controller={controller} />,
-    ream: () => <ReamStep {...{ controller, states, startReaming }} />,
+    ream: () => <ReamStep {...{ controller, states, reaming }} />,
   };
   if (!controller.mayEdit) return <OnlyReaming controller={controller}>{content.ream()}</OnlyReaming>;
   return (

@@ -1,7 +1,9 @@
+import type { StudyLine as Line } from '../../state/study/study_line';
 import type { Store } from '../../state/store';
 import type { LinkState } from '../../wire/link';
 import { appText } from '../../text/app_text';
 import { SiteNav, HeaderEnd } from '../common/site_nav';
+import { StudyLine } from './study_line';
 
 const linkStateText: Record<LinkState['kind'], string> = {
   connecting: appText.linkConnecting,
@@ -31,7 +33,7 @@ function badge(store: Store): string {
 }
 
 /** What is watched, and what becomes of it. */
-export function Header({ store }: { store: Store }) {
+export function Header({ store, study }: { store: Store; study: Line }) {
   const hello = store.hello.value;
   const link = store.link.value.kind;
   return (
@@ -46,6 +48,7 @@ export function Header({ store }: { store: Store }) {
           <span>{hello.caseName || hello.caseId}</span>
         </p>
       )}
+      <StudyLine study={study} />
       <HeaderEnd />
       <p class={`link link-${lookOf(store)}`} role="status" data-testid="link-state" data-link={link}>
         <span class="link-dot" aria-hidden="true" />

@@ -3,11 +3,13 @@ import { useEffect, useRef } from 'preact/hooks';
 
 import type { BoneScene } from '../../scene/scene';
 import type { Alarms } from '../../state/alarms';
+import type { CommentNotices as Notices } from '../../state/comment_notices';
 import type { PracticeStore } from '../../state/practice_store';
 import type { Store } from '../../state/store';
 import type { ViewSettings } from '../../state/view_settings';
 import { appText } from '../../text/app_text';
 import { AlarmList } from './alarm_list';
+import { CommentNotices } from './comment_notices';
 import { Guide } from './guide';
 import { LinkNotice } from './link_notice';
 import { PracticeNotice } from './practice_notice';
@@ -25,11 +27,12 @@ interface Parts {
   bare?: boolean;
   /** A tutorial says what to do. */
   guided?: boolean;
+  comments: Notices;
   children?: ComponentChildren;
 }
 
 /** The bone and the reamer, with the view's buttons; dimmed whenever it is not live. */
-export function Picture({ store, practice, scene, view, alarms, bare, guided, children }: Parts) {
+export function Picture({ store, practice, scene, view, alarms, bare, guided, comments, children }: Parts) {
   const place = useRef<HTMLDivElement>(null);
   const may = useIdentity().may.value;
   useEffect(() => {
@@ -62,15 +65,18 @@ export function Picture({ store, practice, scene, view, alarms, bare, guided, ch
           {appText.replayBadge}
         </p>
       )}
-      {steering && bare !== true && guided !== true && <Guide store={store} practice={practice} />}
+      {steering && practice.hints.value && bare !== true && guided !== true && (
+        <Guide store={store} practice={practice} />
+      )}
       {lost && store.upToDate.value ? (
         <PictureLost steering={steering} />
       ) : steering && store.upToDate.value ? (
-        <PracticeNotice store={store} practice={practice} theatre={view.theatre.value} />
+        <PracticeNotice store={store} practice={practice} />
       ) : (
         <LinkNotice store={store} mayReam={may.ream} />
       )}
-      {!view.theatre.value && <AlarmList alarms={alarms} />}
+      {!view.theatre.value && practice.hints.value && <AlarmList alarms={alarms} />}
+      <CommentNotices notices={comments} toPicture={() => scene.canvas.focus({ preventScroll: true })} />
       {children}
       {bare !== true && <ViewTools scene={scene} view={view} reamerShown={store.reamerShown} />}
     </main>

@@ -1,4 +1,5 @@
 import { type Hand, levelLeastN, levelMostN } from '../../practice/hand';
+import { levels } from '../../practice/level';
 import { leanMaxDeg } from '../../practice/plan_frame';
 import type { PracticeStore } from '../../state/practice_store';
 import { appText } from '../../text/app_text';
@@ -23,17 +24,7 @@ export function PracticeBar({ practice, toPicture }: { practice: PracticeStore; 
         >
           {appText.pushButton}
         </HoldButton>
-        <HoldButton
-          class="hand-button"
-          id="withdraw"
-          onPointerDone={toPicture}
-          onHold={(held) => {
-            if (held) hand.takeHold();
-            hand.withdraw('button', held ? 1 : 0);
-          }}
-        >
-          {appText.withdrawButton}
-        </HoldButton>
+        <WithdrawButton hand={hand} onDone={toPicture} />
         <PauseButton hand={hand} onDone={(event) => afterClick(event, toPicture)} />
         <p class="soft off-plan" data-testid="off-plan">
           {appText.offPlan(fixed(practice.offPlanMm.value, 1))}
@@ -98,6 +89,23 @@ export function DriveButtons({ hand, onDone }: HandButtonParts) {
   );
 }
 
+/** For a touch screen: no finger on the picture withdraws. */
+export function WithdrawButton({ hand, onDone }: { hand: Hand; onDone: () => void }) {
+  return (
+    <HoldButton
+      class="hand-button"
+      id="withdraw"
+      onPointerDone={onDone}
+      onHold={(held) => {
+        if (held) hand.takeHold();
+        hand.withdraw('button', held ? 1 : 0);
+      }}
+    >
+      {appText.withdrawButton}
+    </HoldButton>
+  );
+}
+
 export function PauseButton({ hand, onDone }: HandButtonParts) {
   const paused = hand.paused.value;
   const press = (event: MouseEvent) => {
@@ -115,6 +123,7 @@ function afterClick(event: MouseEvent, toPicture: () => void): void {
 /** The push as it is set and the thrust that comes of it (a mark), and below how hard a full push is; one scale. */
 function PushMeter({ practice }: { practice: PracticeStore }) {
   const { hand } = practice;
+  const { ownPressure } = levels[practice.level.value];
   const pushN = hand.pushN.value;
   const thrustN = practice.feedback.value?.thrustN ?? 0;
   const share = (newtons: number) => `${((Math.max(newtons, 0) / levelMostN) * 100).toFixed(1)}%`;
@@ -128,7 +137,7 @@ function PushMeter({ practice }: { practice: PracticeStore }) {
         aria-valuemin={0}
         aria-valuemax={levelMostN}
         aria-valuenow={Math.max(pushN, 0)}
-        aria-valuetext={appText.pushMeter(fixed(pushN, 0), fixed(hand.levelN.value, 0))}
+        aria-valuetext={appText.pushMeter(fixed(pushN, 0), fixed(ownPressure ? levelMostN : hand.levelN.value, 0))}
       >
         <div class="push-now" style={{ width: share(pushN) }} />
         <div class="push-thrust" style={{ left: share(thrustN) }} />
@@ -136,6 +145,14 @@ function PushMeter({ practice }: { practice: PracticeStore }) {
       <span class="push-figure">
         <strong data-testid="push-now">{fixed(pushN, 0)}</strong> N
       </span>
+      {!ownPressure && <PushLevel hand={hand} />}
+    </div>
+  );
+}
+
+function PushLevel({ hand }: { hand: Hand }) {
+  return (
+    <>
       <label for="push-level">{appText.pushLevel}</label>
       <input
         id="push-level"
@@ -151,7 +168,7 @@ function PushMeter({ practice }: { practice: PracticeStore }) {
       <span class="push-figure">
         <strong>{fixed(hand.levelN.value, 0)}</strong> N
       </span>
-    </div>
+    </>
   );
 }
 

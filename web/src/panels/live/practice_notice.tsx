@@ -8,13 +8,11 @@ type Notice = readonly [look: Look, title: string, text: string];
 interface Parts {
   store: Store;
   practice: PracticeStore;
-  /** In theatre mode the depth is not shown. */
-  theatre: boolean;
 }
 
 /** Over the picture, in words, whenever the hand does not do what the person may think it does. */
-export function PracticeNotice({ store, practice, theatre }: Parts) {
-  const notice = ofLink(practice) ?? ofHand(store, practice, theatre);
+export function PracticeNotice({ store, practice }: Parts) {
+  const notice = ofLink(practice) ?? ofHand(store, practice);
   if (notice === null) return null;
   const [look, title, text] = notice;
   return (
@@ -43,7 +41,7 @@ function ofLink(practice: PracticeStore): Notice | null {
   }
 }
 
-function ofHand(store: Store, practice: PracticeStore, theatre: boolean): Notice | null {
+function ofHand(store: Store, practice: PracticeStore): Notice | null {
   const { hand } = practice;
   if (!hand.held.value) return ['silent', appText.noticeLetGo, appText.noticeLetGoText];
   if (hand.paused.value) return ['plain', appText.noticePaused, appText.noticePausedText];
@@ -52,7 +50,7 @@ function ofHand(store: Store, practice: PracticeStore, theatre: boolean): Notice
     return ['silent', appText.noticeSpindleOff, appText.noticeSpindleOffText];
   if (store.reading.value.telemetry?.stalled === true)
     return ['silent', appText.noticeStalled, appText.noticeStalledText];
-  if (theatre) return null;
+  if (!practice.hints.value) return null;
   const plannedMm = store.hello.value?.plannedDepthMm ?? 0;
   if (pushing && plannedMm > 0 && (store.reading.value.telemetry?.depthMm ?? 0) >= plannedMm)
     return ['lost', appText.noticeDepth, appText.noticeDepthText];

@@ -5,6 +5,7 @@ import { useEffect, useRef } from 'preact/hooks';
 
 import { beginNext, nextSession } from '../../state/next_session';
 import type { Practice } from '../../state/practice';
+import type { PracticeChoice } from '../../state/practice_choice';
 import type { PracticeStore } from '../../state/practice_store';
 import type { ResultWatch } from '../../state/result_watch';
 import { addressOfRoute } from '../../state/route';
@@ -29,6 +30,7 @@ interface Parts {
   watcher: Watcher;
   practice: Practice;
   practiceStore: PracticeStore;
+  choice: PracticeChoice;
   result: ResultWatch;
   review: ReviewApi;
   scene: { canvas: HTMLCanvasElement };
@@ -173,6 +175,7 @@ function Buttons({
   watcher,
   practice,
   practiceStore,
+  choice,
   review,
 }: Omit<Parts, 'result' | 'scene'> & { session: Session }) {
   const may = useIdentity().may.value;
@@ -186,7 +189,7 @@ function Buttons({
           testId="try-again"
           title={next === 'again' ? resultText.tryAgainHint : next === 'practise' ? resultText.practiseHint : undefined}
           disabled={store.busy.value}
-          onClick={() => void beginNext(next, session, { watcher, practice, may })}
+          onClick={() => void beginNext(next, session, { watcher, practice, may, choice })}
         >
           {{ attempt: appText.nextAttempt, again: resultText.tryAgain, practise: appText.practise }[next]}
         </Button>

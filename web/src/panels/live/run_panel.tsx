@@ -1,7 +1,5 @@
-import type { Signal } from '@preact/signals';
-
-import { liveText } from '../../text/live_text';
 import type { Practice } from '../../state/practice';
+import type { PracticeChoice } from '../../state/practice_choice';
 import type { PracticeStore } from '../../state/practice_store';
 import type { ResultWatch } from '../../state/result_watch';
 import type { Store } from '../../state/store';
@@ -11,6 +9,7 @@ import { appText } from '../../text/app_text';
 import { resultText } from '../../text/result_text';
 import { isPageLost, sessionChoices } from '../../state/session_choices';
 import { Button } from '../common/button';
+import { PracticeChooser } from './practice_chooser';
 import { SessionControls } from './session_controls';
 import { SessionLabels } from './session_labels';
 import { StartButtons } from './start_buttons';
@@ -22,13 +21,12 @@ interface Parts {
   practice: Practice;
   practiceStore: PracticeStore;
   tutorial: Tutorial;
-  /** Whether what is made here is made for theatre. */
-  theatreWanted: Signal<boolean>;
+  choice: PracticeChoice;
   result: ResultWatch;
 }
 
 /** The things to do, and what the session is doing. */
-export function RunPanel({ store, watcher, practice, practiceStore, tutorial, theatreWanted, result }: Parts) {
+export function RunPanel({ store, watcher, practice, practiceStore, tutorial, choice, result }: Parts) {
   const may = useIdentity().may.value;
   const reachable = store.link.value.kind === 'live' || store.link.value.kind === 'nothing';
   const active = reachable && store.active.value;
@@ -39,7 +37,7 @@ export function RunPanel({ store, watcher, practice, practiceStore, tutorial, th
     <section class="run" aria-label={appText.runDemo}>
       {may.ream && (
         <div class="run-buttons">
-          {!active && <StartButtons {...{ store, watcher, practice, practiceStore, tutorial, idle, theatreWanted }} />}
+          {!active && <StartButtons {...{ store, watcher, practice, practiceStore, tutorial, idle, choice }} />}
           {left ? (
             <p class="session-left" data-testid="session-left" role="status">
               {appText.sessionLeft}
@@ -69,27 +67,12 @@ export function RunPanel({ store, watcher, practice, practiceStore, tutorial, th
           )}
         </div>
       )}
-      {may.ream && !active && <TheatreChoice wanted={theatreWanted} />}
+      {may.ream && !active && <PracticeChooser choice={choice} />}
       {may.ream && <SessionControls {...{ store, watcher, practice, practiceStore }} />}
       <ShowResult result={result} />
       <StateLine store={store} practiceStore={practiceStore} reachable={reachable} />
       <SessionLabels store={store} />
     </section>
-  );
-}
-
-function TheatreChoice({ wanted }: { wanted: Signal<boolean> }) {
-  return (
-    <label class="theatre-choice" title={liveText.theatreHint}>
-      <input
-        type="checkbox"
-        data-testid="theatre-mode"
-        checked={wanted.value}
-        onChange={(event) => (wanted.value = event.currentTarget.checked)}
-      />
-      {liveText.theatreMode}
-      <span class="soft">{liveText.theatreShort}</span>
-    </label>
   );
 }
 

@@ -1,6 +1,7 @@
 import { addressOfRoute } from '../../state/route';
 import type { Store } from '../../state/store';
 import { appText } from '../../text/app_text';
+import { practiceText } from '../../text/practice_text';
 import { useIdentity } from '../common/site_nav';
 import type { Session } from '../../wire/rest_types';
 
@@ -31,12 +32,22 @@ export function SessionLabels({ store }: { store: Store }) {
   );
 }
 
-function labelsOf({ title, trainee, participant, attempt, study }: Session): string[] {
+/** What the line of its study says is not said again. */
+export function labelsOf(session: Session): string[] {
+  const { title, attempt, study, participant } = session;
+  const ofStudy = study !== null && participant !== null;
   const labels = [
-    study ? appText.inStudy : '',
     title ? appText.titled(title) : '',
-    trainee || participant ? appText.trainedBy(trainee || participant || '') : '',
-    attempt > 1 ? appText.attempt(attempt) : '',
+    ofStudy ? '' : byWhom(session),
+    attempt > 1 && !ofStudy ? appText.attempt(attempt) : '',
   ];
   return labels.filter((text) => text !== '');
+}
+
+/** A script reams for nobody, whoever started it. */
+function byWhom(session: Session): string {
+  if (session.device.name === 'script')
+    return session.script === 'demo' ? practiceText.demoRun : practiceText.scriptRun;
+  const who = session.trainee || session.participant;
+  return who ? appText.trainedBy(who) : '';
 }

@@ -1,7 +1,6 @@
-import type { Signal } from '@preact/signals';
-
 import { beginNext, goesOnInStudy } from '../../state/next_session';
 import type { Practice } from '../../state/practice';
+import { beginPractice, type PracticeChoice } from '../../state/practice_choice';
 import type { PracticeStore } from '../../state/practice_store';
 import { hasReamed } from '../../state/newcomer';
 import type { Store } from '../../state/store';
@@ -20,24 +19,20 @@ interface Parts {
   tutorial: Tutorial;
   /** Something can be started now. */
   idle: boolean;
-  theatreWanted: Signal<boolean>;
+  choice: PracticeChoice;
 }
 
 /**
  * What begins a session of one's own. Who has none yet is offered the tutorial first. After a session of a study the
  * next attempt in it comes first, so that nobody leaves a study without knowing.
  */
-export function StartButtons({ store, watcher, practice, practiceStore, tutorial, idle, theatreWanted }: Parts) {
+export function StartButtons({ store, watcher, practice, practiceStore, tutorial, idle, choice }: Parts) {
   const identity = useIdentity();
   const may = identity.may.value;
   const last = store.watched.value;
   const inStudy = goesOnInStudy(last, { may, steeredLast: practiceStore.lastSessionId.value });
   const attemptAgain = async () => {
-    if (last !== null) await beginNext('attempt', last, { watcher, practice, may });
-  };
-  const practise = async () => {
-    const sessionId = await watcher.practise('demo', theatreWanted.value);
-    if (sessionId !== null) practice.steer(sessionId);
+    if (last !== null) await beginNext('attempt', last, { watcher, practice, may, choice });
   };
   const newcomer =
     !inStudy &&
@@ -74,7 +69,7 @@ export function StartButtons({ store, watcher, practice, practiceStore, tutorial
         data-testid="practise"
         title={inStudy ? appText.practiseOutsideHint : undefined}
         disabled={!idle}
-        onClick={() => void practise()}
+        onClick={() => void beginPractice({ watcher, practice, choice })}
       >
         {inStudy ? appText.practiseOutside : appText.practise}
       </button>
