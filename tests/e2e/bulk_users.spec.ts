@@ -41,6 +41,7 @@ test('users are made from a table; what is wrong is said by line, and passwords 
 
   await page.getByTestId('log-out').click();
   const password = copied.split(/\r?\n/)[1]?.split(',')[1] ?? '';
+  await page.goto(`${here.server.url}/#/sessions`);
   await logIn(page, 'anna', password);
   await expect(page.getByTestId('current-user')).toContainText('Anna Example');
 });

@@ -2,7 +2,7 @@ import { PageHeader } from '../panels/common/page_header';
 import { Message } from '../panels/common/fields';
 import { useRemote } from '../panels/common/use_remote';
 import { useShownName } from '../panels/common/use_shown_name';
-import { RubricEditor } from '../panels/rubric/rubric_editor';
+import { RubricEditor, SaveBar } from '../panels/rubric/rubric_editor';
 import { addressOfRoute } from '../state/route';
 import { RubricDraft } from '../state/rubric/rubric_draft';
 import { rubricText } from '../text/rubric_text';
@@ -32,6 +32,7 @@ export function RubricPage({ api, id }: { api: RubricApi; id: string }) {
           <RubricEditor api={api} id={id} draft={draft} />
         )}
       </main>
+      {draft !== null && <SaveBar api={api} id={id} draft={draft} />}
     </div>
   );
 }

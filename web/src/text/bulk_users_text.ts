@@ -35,5 +35,5 @@ export const bulkUsersText = {
     failed === 0 ? `Created: ${created}.` : `Created: ${created}. Not created: ${failed}, see the table.`,
   passwords: 'Generated passwords',
   passwordsHint: 'Copy them now. They are not shown again.',
-  copyAll: 'Copy all generated passwords',
+  copyAll: 'Copy all',
 };

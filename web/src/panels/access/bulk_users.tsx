@@ -86,7 +86,7 @@ function Checked({ bulk, rows }: { bulk: BulkUsers; rows: readonly UserRow[] }) 
   const { nameColumn, shownColumn, roleColumn } = accessText;
   const { lineColumn, passwordColumn, stateColumn } = bulkUsersText;
   return (
-    <div class="table-scroll">
+    <div class="table-scroll" role="region" aria-label={bulkUsersText.stateColumn} tabIndex={0}>
       <table class="data-table" data-testid="bulk-table">
         <thead>
           <tr>
@@ -166,7 +166,7 @@ function Passwords({ bulk }: { bulk: BulkUsers }) {
         value={table}
         onFocus={(event) => event.currentTarget.select()}
       />
-      <CopyButton text={table} label={bulkUsersText.copyAll} testId="bulk-copy" />
+      <CopyButton text={table} words={bulkUsersText.copyAll} testId="bulk-copy" />
     </div>
   );
 }

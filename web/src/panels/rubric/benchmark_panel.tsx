@@ -33,17 +33,19 @@ interface Parts {
 }
 
 interface TableParts {
-  caption?: string;
+  /** What it is about; shown where it is a part of more. */
+  label: string;
+  caption?: boolean;
   columns: readonly string[];
   rows: readonly (readonly string[])[];
 }
 
 /** A name, then numbers. */
-function NumberTable({ caption, columns, rows }: TableParts) {
+function NumberTable({ label, caption, columns, rows }: TableParts) {
   return (
-    <div class="table-scroll">
+    <div class="table-scroll" role="region" aria-label={label} tabIndex={0}>
       <table class="data-table">
-        {caption !== undefined && <caption>{caption}</caption>}
+        {caption === true && <caption>{label}</caption>}
         <thead>
           <tr>
             {columns.map((name, i) => (
@@ -74,6 +76,7 @@ function Lines({ benchmark, metrics }: Parts) {
   const { metricColumn, meanColumn, sdColumn, countColumn } = benchmarkText;
   return (
     <NumberTable
+      label={metricColumn}
       columns={[metricColumn, meanColumn, sdColumn, countColumn]}
       rows={benchmark.lines.map(({ metric, mean, sd, experts }) => {
         const known = metrics.find((one) => one.metric === metric);
@@ -94,7 +97,8 @@ function Cuts({ benchmark, metrics }: Parts) {
   const known = (of: string) => metrics.find(({ metric }) => metric === of);
   return (
     <NumberTable
-      caption={benchmarkText.cuts}
+      label={benchmarkText.cuts}
+      caption
       columns={[metricColumn, cutColumn, noviceColumn, expertColumn]}
       rows={benchmark.cuts.map((cut) => {
         const name = cut.of === 'points' ? points : (known(cut.of)?.name ?? cut.of);

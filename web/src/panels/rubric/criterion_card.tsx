@@ -2,7 +2,7 @@ import { useSignal } from '@preact/signals';
 
 import type { CriterionDraft, LimitsChoice, PointsChoice } from '../../state/rubric/criterion_draft';
 import { twoPoints, type RubricDraft } from '../../state/rubric/rubric_draft';
-import { bandText, unitOf } from '../../state/review/score_text';
+import { bandText, unitOf, withUnit } from '../../state/review/score_text';
 import { rubricText } from '../../text/rubric_text';
 import { sentence } from '../../text/format';
 import type { KnownMetric } from '../../wire/rest_types';
@@ -112,8 +112,7 @@ function Details({ line, opened, bad }: { line: LineParts; opened: boolean; bad:
 /** "0 mm → 100, 4 mm → 0": what a closed line says of its points. */
 function inShort({ criterion, known }: LineParts): string {
   if (criterion.points === 'limits') return rubricText.pointsFromNames.limits;
-  const unit = unitOf(known?.unit ?? null);
-  return criterion.curve.map(({ at, points }) => `${at} ${unit}`.trim() + ` → ${points}`).join(', ');
+  return criterion.curve.map(({ at, points }) => `${withUnit(at, known?.unit ?? null)} → ${points}`).join(', ');
 }
 
 function PointsField({ line: { criterion, fault, idOf, change } }: { line: LineParts }) {
@@ -168,7 +167,7 @@ function LimitsFields({ line }: { line: LineParts }) {
       {numbersOf(limits).map(([field, label]) => (
         <NumberLine
           key={field}
-          {...{ label: withUnit(label, known), id: idOf(field), fault: fault(`band/${field}`) }}
+          {...{ label: labelWithUnit(label, known), id: idOf(field), fault: fault(`band/${field}`) }}
           value={criterion[field]}
           onInput={(value) => change({ [field]: value })}
         />
@@ -200,7 +199,7 @@ function numbersOf(limits: LimitsChoice): (readonly ['pass' | 'warn' | 'low', st
   }
 }
 
-function withUnit(label: string, known: KnownMetric | null): string {
+function labelWithUnit(label: string, known: KnownMetric | null): string {
   const unit = unitOf(known?.unit ?? null);
   return unit === '' ? label : `${label} (${unit})`;
 }

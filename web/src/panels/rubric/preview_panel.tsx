@@ -54,11 +54,7 @@ export function PreviewPanel({ api, id, draft }: Parts) {
       </div>
       {preview.problem.value !== null && <Message kind="bad">{preview.problem.value}</Message>}
       {score !== null && (
-        <div
-          class={preview.stale.value ? 'stale-preview' : ''}
-          aria-busy={preview.stale.value}
-          data-testid="preview-score"
-        >
+        <div aria-busy={preview.stale.value && draft.rubric.value !== null} data-testid="preview-score">
           <ScoreIt {...{ api, id, session: score.session, unsaved: draft.changed.value }} />
           <ScoreCard score={score} />
         </div>

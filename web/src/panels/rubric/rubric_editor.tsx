@@ -48,7 +48,6 @@ export function RubricEditor({ api, id, draft }: Parts) {
           <HeadFields draft={draft} />
         </section>
         <CriteriaPanel draft={draft} />
-        <SaveBar {...{ api, id, draft }} />
       </div>
       <PreviewPanel {...{ api, id, draft }} />
     </div>
@@ -97,8 +96,8 @@ function HeadFields({ draft }: { draft: RubricDraft }) {
   );
 }
 
-/** Saves, or says what is in the way. */
-function SaveBar({ api, id, draft }: Parts) {
+/** Saves, or says what is in the way. Stands below the rest, and covers nothing of it. */
+export function SaveBar({ api, id, draft }: Parts) {
   const status = useSignal<{ kind: 'soft' | 'bad'; words: string } | null>(null);
   const busy = useSignal(false);
   const faults = draft.faults.value.size;
@@ -118,7 +117,7 @@ function SaveBar({ api, id, draft }: Parts) {
     }
   };
   return (
-    <div class="save-bar" data-testid="save-bar">
+    <section class="save-bar" data-testid="save-bar" aria-label={rubricText.save}>
       <Button
         look="main"
         testId="save-rubric"
@@ -147,6 +146,6 @@ function SaveBar({ api, id, draft }: Parts) {
           {status.value.words}
         </Message>
       )}
-    </div>
+    </section>
   );
 }
