@@ -17,8 +17,9 @@ const std::string one_session = "/api/v1/sessions/{id}";
 
 /// Whether a route of one session says what it measured, so that it tells how the bone was made.
 bool shows_results(const Route& route) {
-  static constexpr std::array parts = {"recording", "session.json", "trace",   "mesh",  "snapshot",
-                                       "exports",   "replay",       "metrics", "score", "deviation"};
+  static constexpr std::array parts = {"recording", "session.json", "trace",        "mesh",
+                                       "snapshot",  "exports",      "replay",       "metrics",
+                                       "score",     "deviation",    "score/preview"};
   const std::string_view pattern = route.pattern;
   return std::any_of(parts.begin(), parts.end(), [&](std::string_view part) {
     return pattern.size() > one_session.size() && pattern.substr(one_session.size() + 1) == part;

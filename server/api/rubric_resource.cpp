@@ -6,6 +6,7 @@
 #include "api/routes.hpp"
 #include "api/services.hpp"
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "net/conditional.hpp"
 
 namespace ream::api {
@@ -13,7 +14,6 @@ using nlohmann::json;
 namespace {
 
 const std::string rubrics_path = "/api/v1/rubrics";
-const std::string rubric_place = "the request body";
 
 bool has_rubric(const score::RubricStore& store, const std::string& id) {
   const auto ids = store.ids();
@@ -29,21 +29,24 @@ void require_place(const ScoreStores& stores) {
   if (!stores.writable) throw Error(ErrorKind::unavailable, "this server keeps no rubrics");
 }
 
-/// Over the network a rubric asks only for what every session can say.
-score::Rubric rubric_from(const json& value) {
-  score::Rubric rubric = score::rubric_from_json(value, rubric_place);
-  for (size_t i = 0; i < rubric.criteria.size(); ++i)
-    if (const std::string& metric = rubric.criteria[i].metric; !score::find_metric(metric))
-      throw net::RequestError(422, "there is no metric '" + metric + "'; a session's score names them",
-                              {{"#/criteria/" + std::to_string(i) + "/metric", "is no metric"}});
-  return rubric;
-}
-
 json kept_rubric(const score::RubricStore& store, const std::string& id, const score::Rubric& rubric) {
   return {{"id", id},
           {"version", rubric.version},
           {"versions", store.versions(id)},
           {"rubric", score::rubric_json(rubric)}};
+}
+
+/// What a rubric may ask for.
+net::Response list_metrics(const Services&, const net::Request&) {
+  json metrics = json::array();
+  for (const score::Metric& metric : score::metric_catalogue())
+    metrics.push_back({{"metric", metric.key},
+                       {"name", metric.name},
+                       {"unit", or_null(metric.unit)},
+                       {"definition", metric.definition},
+                       {"source", metric.source},
+                       {"band", score::band_json(metric.band)}});
+  return net::json_response(200, {{"metrics", std::move(metrics)}});
 }
 
 net::Response list_rubrics(const Services& services, const net::Request&) {
@@ -73,7 +76,7 @@ net::Response get_rubric(const Services& services, const net::Request& request) 
 net::Response create_rubric(const Services& services, const net::Request& request) {
   const ScoreStores& stores = services.stores;
   const std::string id = body_of(request).at("id");
-  score::Rubric rubric = rubric_from(body_of(request).at("rubric"));
+  score::Rubric rubric = requested_rubric(body_of(request).at("rubric"));
   const std::lock_guard one_at_a_time(stores.editing);
   if (has_rubric(stores.rubrics, id))
     throw Error(ErrorKind::conflict, "there is a rubric '" + id + "' already; PUT edits it");
@@ -87,7 +90,7 @@ net::Response create_rubric(const Services& services, const net::Request& reques
 net::Response edit_rubric(const Services& services, const net::Request& request) {
   const ScoreStores& stores = services.stores;
   const std::string& id = id_of(request);
-  score::Rubric rubric = rubric_from(body_of(request));
+  score::Rubric rubric = requested_rubric(body_of(request));
   const std::lock_guard one_at_a_time(stores.editing);
   require_rubric(stores.rubrics, id);
   const json now = kept_rubric(stores.rubrics, id, stores.rubrics.get(id));
@@ -107,7 +110,8 @@ net::Response edit_rubric(const Services& services, const net::Request& request)
 }  // namespace
 
 std::vector<Route> rubric_routes() {
-  return {{"GET", rubrics_path, access::reamers, not_audited, list_rubrics},
+  return {{"GET", "/api/v1/metrics", access::reamers, not_audited, list_metrics},
+          {"GET", rubrics_path, access::reamers, not_audited, list_rubrics},
           {"POST", rubrics_path, access::staff, audited_by_handler, create_rubric},
           {"GET", rubrics_path + "/{id}", access::reamers, not_audited, get_rubric},
           {"PUT", rubrics_path + "/{id}", access::staff, audited_by_handler, edit_rubric}};

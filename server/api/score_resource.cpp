@@ -41,6 +41,16 @@ net::Response get_score(const Services& services, const net::Request& request) {
                         session::score_document(services.engine.program(), about(record), metrics, judge));
 }
 
+/// By a rubric that nobody has saved yet; nothing is kept.
+net::Response preview_score(const Services& services, const net::Request& request) {
+  const std::string& id = id_of(request);
+  const session::SessionRecord record = services.sessions.get(id);
+  const session::Judge judge{requested_rubric(body_of(request)), "", nullptr};
+  const json document =
+      session::score_document(services.engine.program(), about(record), services.sessions.metrics(id), judge);
+  return score_response(id, is_live(record.status.state) ? "live" : "computed", document);
+}
+
 net::Response score_anew(const Services& services, const net::Request& request) {
   const std::string& id = id_of(request);
   const session::SessionRecord record = services.sessions.get(id);
@@ -94,6 +104,7 @@ std::vector<Route> score_routes() {
   const std::string score = "/api/v1/sessions/{id}/score";
   return {{"GET", score, access::all_roles, reads("session.score.read"), get_score},
           {"POST", score, access::staff, changes("session.score"), score_anew, {"session", "scored"}},
+          {"POST", score + "/preview", access::staff, reads("session.score.read"), preview_score},
           {"GET", "/api/v1/scores", access::reamers, reads("scores.read"), list_scores}};
 }
 

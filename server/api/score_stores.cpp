@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "net/problem.hpp"
 
 namespace ream::api {
 
@@ -19,6 +20,15 @@ session::Judge ScoreStores::judge_by(const std::string& rubric, const std::strin
   if (!benchmark.empty())
     judge.benchmark = std::make_shared<const score::Benchmark>(benchmarks.get(benchmark).benchmark);
   return judge;
+}
+
+score::Rubric requested_rubric(const nlohmann::json& body) {
+  score::Rubric rubric = score::rubric_from_json(body, "the request body");
+  for (size_t i = 0; i < rubric.criteria.size(); ++i)
+    if (const std::string& metric = rubric.criteria[i].metric; !score::find_metric(metric))
+      throw net::RequestError(422, "there is no metric '" + metric + "'; a session's score names them",
+                              {{"#/criteria/" + std::to_string(i) + "/metric", "is no metric"}});
+  return rubric;
 }
 
 }  // namespace ream::api

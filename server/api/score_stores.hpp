@@ -1,5 +1,6 @@
 #pragma once
 #include <mutex>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "score/benchmark_store.hpp"
@@ -19,5 +20,9 @@ struct ScoreStores {
   /// one.
   session::Judge judge_by(const std::string& rubric, const std::string& benchmark = {}) const;
 };
+
+/// A rubric that a client sends: it asks only for what every session can say. Errors: invalid_input, with the
+/// place of an unknown metric.
+score::Rubric requested_rubric(const nlohmann::json& body);
 
 }  // namespace ream::api

@@ -157,6 +157,7 @@ TEST_F(GateTest, WhatAHiddenSessionMeasuredIsForOperatorsOnly) {
     EXPECT_EQ(refusal(asked("GET", tom), one + part), 403) << part;
     EXPECT_EQ(refusal(asked("GET", anna), one + part), 0) << part;
   }
+  EXPECT_EQ(refusal(asked("POST", tom), one + "/score/preview"), 403) << "by any rubric";
   for (const char* part : {"/replay", "/exports"})
     EXPECT_EQ(refusal(asked("POST", tom), one + part), 403) << part;
   EXPECT_EQ(refusal(asked("GET", tom), one), 0);
@@ -283,6 +284,9 @@ TEST_F(GateTest, ARaterSeesSessionsInTheQueueOnly) {
     asked.parameters["id"] = id;
     EXPECT_EQ(refusal(asked, sessions + "/{id}"), status) << id;
     EXPECT_EQ(refusal(asked, sessions + "/{id}/score"), status) << id;
+    net::Request preview = with_token("POST", ines);
+    preview.parameters["id"] = id;
+    EXPECT_EQ(refusal(preview, sessions + "/{id}/score/preview"), status) << id;
   }
 }
 

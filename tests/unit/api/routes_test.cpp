@@ -68,7 +68,8 @@ TEST(Routes, AuditsHaveAWordUnlessTheHandlerHasIt) {
   for (const Route& route : routes()) {
     const Kind kind = route.audit.kind;
     EXPECT_EQ(route.audit.action != nullptr, kind == Kind::change || kind == Kind::reading) << route.pattern;
-    EXPECT_FALSE(kind == Kind::reading && route.method != "GET" && !route.pattern.ends_with("/replay"))
+    EXPECT_FALSE(kind == Kind::reading && route.method != "GET" && !route.pattern.ends_with("/replay") &&
+                 !route.pattern.ends_with("/preview"))
         << route.pattern;
   }
 }
@@ -95,6 +96,19 @@ TEST(Routes, DataOfPatientsAndTraineesIsAudited) {
     EXPECT_FALSE((tells || changes_data) && route.audit.kind == RouteAudit::Kind::nothing)
         << route.method << ' ' << route.pattern;
   }
+}
+
+TEST(Routes, APreviewIsForThoseWhoMayWriteWhatIsPreviewedAndTellsNoChange) {
+  const auto row = [](const std::string& method, const std::string& pattern) {
+    for (const Route& route : routes())
+      if (route.method == method && route.pattern == pattern) return route;
+    throw std::logic_error("no route " + method + pattern);
+  };
+  const Route preview = row("POST", "/api/v1/sessions/{id}/score/preview");
+  EXPECT_EQ(preview.access.roles, row("PUT", "/api/v1/rubrics/{id}").access.roles);
+  EXPECT_EQ(preview.audit.kind, RouteAudit::Kind::reading);
+  EXPECT_STREQ(preview.audit.action, row("GET", "/api/v1/sessions/{id}/score").audit.action);
+  EXPECT_EQ(preview.change.kind, nullptr);
 }
 
 TEST(Routes, OnlyWhatReadsTellsNoChangeByItsRow) {

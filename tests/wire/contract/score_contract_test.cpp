@@ -31,6 +31,8 @@ class ScoreContractTest : public ScoreTest {
     expect_post(rubrics, rubrics, 201, wanted.dump());
     expect_post(rubrics, rubrics, 409, wanted.dump());
     expect_get(rubrics, rubrics, 200);
+    const std::string metrics = "/api/v1/metrics";
+    expect_get(metrics, metrics, 200);
     const std::string path = rubrics + "/simple", first = simple_rubric(1).dump();
     refused_bodies("PUT", one_rubric, path, first, "{}");
     json edited = simple_rubric(1);
@@ -84,6 +86,15 @@ class ScoreContractTest : public ScoreTest {
     expect_post(pattern, all + "/nobody/score", 404, "{}");
     expect_post(pattern, live + "/score", 409, "{}");
     expect_get(pattern, path, 200);
+    const std::string preview = pattern + "/preview", rubric = simple_rubric(1).dump();
+    json odd = simple_rubric(1);
+    odd["criteria"][0]["metric"] = "elegance";
+    refused_bodies("POST", preview, path + "/preview", rubric, "{}");
+    expect_post(preview, path + "/preview", 422, odd.dump());
+    expect_post(preview, path + "/preview", 200, rubric);
+    expect_post(preview, live + "/score/preview", 200, rubric);
+    expect_post(preview, all + "/nobody/score/preview", 404, rubric);
+    expect_post(preview, all + "/bare/score/preview", 404, rubric);
     expect_get(all, all + "?sort=-points&outcome=undecided,none", 200);
     expect_get(scores, scores, 200);
     expect_get(scores, scores + "?format=csv&rubric=simple", 200);

@@ -59,6 +59,46 @@ TEST_F(ScoresTest, AreKeptWithTheRubricAsItWas) {
   EXPECT_TRUE(schema_faults(schema, kept("good", "score.json")).empty());
 }
 
+TEST_F(ScoresTest, ByARubricThatIsNotSavedAreAsIfItWereAndNothingIsKept) {
+  put_session("good", 2.0, 1);
+  start();
+  add_simple_rubric();
+  const json before = told(rubrics);
+  const HttpReply reply = post(all + "/good/score/preview", simple_rubric(1).dump());
+  ASSERT_EQ(reply.status, 200) << reply.body;
+  json preview = json::parse(reply.body), saved = told(all + "/good/score?rubric=simple");
+  EXPECT_EQ(preview.at("rubric").at("id"), nullptr);
+  preview["rubric"].erase("id");
+  saved["rubric"].erase("id");
+  EXPECT_EQ(preview, saved);
+  json strict = simple_rubric(1);
+  strict["pass_points"] = 90;
+  EXPECT_EQ(json::parse(post(all + "/good/score/preview", strict.dump()).body).at("outcome"), "fail");
+  EXPECT_EQ(told(rubrics), before);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "sessions/good/score.json"));
+}
+
+TEST_F(ScoresTest, RestOnMetricsThatARubricMayAskFor) {
+  start();
+  const json metrics = told("/api/v1/metrics").at("metrics");
+  ASSERT_EQ(metrics.size(), score::metric_catalogue().size());
+  json every = simple_rubric(1);
+  every["criteria"] = json::array();
+  for (const json& metric : metrics)
+    every["criteria"].push_back({{"metric", metric.at("metric")}, {"none", 1}, {"full", 0}});
+  EXPECT_EQ(post(rubrics, json{{"id", "every"}, {"rubric", every}}.dump()).status, 201);
+}
+
+TEST_F(ScoresTest, AnUnusableRubricIsRefusedWithThePlaceAtFault) {
+  put_session("good", 2.0, 1);
+  start();
+  json odd = simple_rubric(1);
+  odd["criteria"].push_back({{"metric", "elegance"}, {"none", 0}, {"full", 1}});
+  const HttpReply reply = post(all + "/good/score/preview", odd.dump());
+  EXPECT_EQ(reply.status, 422);
+  EXPECT_EQ(json::parse(reply.body).at("errors").at(0).at("pointer"), "#/criteria/1/metric");
+}
+
 TEST_F(ScoresTest, OfARunningSessionAreThoseSoFar) {
   start();
   const HttpReply made = post(all, R"({"case": "planned", "script": "demo", "theatre": true})");

@@ -4,6 +4,7 @@ import { useEffect, useMemo } from 'preact/hooks';
 
 import { accessText } from '../text/access_text';
 import { AddUser } from '../panels/access/add_user';
+import { BulkUsersPanel } from '../panels/access/bulk_users';
 import { LinkPanel } from '../panels/access/link_panel';
 import { PasswordPanel } from '../panels/access/password_panel';
 import { TokenPanel } from '../panels/access/token_panel';
@@ -53,6 +54,7 @@ export function UsersPage() {
           {list !== null && list.length > 0 && <UserTable api={api} users={users} />}
           {list !== null && <AddUser api={api} users={users} />}
         </section>
+        {list !== null && list.length > 0 && <BulkUsersPanel api={api} users={users} />}
         {identity.hasUsers.value && <TokenPanel api={api} userId={null} nameOf={nameOf} />}
         {identity.hasUsers.value && <LinkPanel api={api} />}
       </main>

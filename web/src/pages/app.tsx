@@ -18,6 +18,7 @@ const trashPage = lazyPart(() => import('./trash_page'));
 const auditPage = lazyPart(() => import('./audit_page'));
 const reviewPage = lazyPart(() => import('./review_page'));
 const studyPages = lazyPart(() => import('./study_pages'));
+const rubricPages = lazyPart(() => import('./rubric_pages'));
 const feelPage = lazyPart(() => import('./feel_session_page'));
 const accessPages = lazyPart(() => import('./access_pages'));
 
@@ -87,6 +88,11 @@ function Page({ route, live, identity }: { route: Route; live: LivePageParts; id
     case 'rating':
       if (!may.takePart) return <NotForYou />;
       return studyPages.show(({ StudyPages }) => <StudyPages route={route} live={live} />);
+    case 'rubrics':
+    case 'rubric':
+    case 'benchmarks':
+      if (!may.teach) return <NotForYou />;
+      return rubricPages.show(({ RubricPages }) => <RubricPages route={route} />);
     case 'users':
       if (!may.operate) return <NotForYou />;
       return accessPages.show(({ UsersPage }) => <UsersPage />);

@@ -1,5 +1,6 @@
 import '../styles/pages.css';
 import '../styles/study.css';
+import '../styles/editor.css';
 
 import { addressOfRoute, type Route } from '../state/route';
 import { StudyApi } from '../wire/study_api';

@@ -1,5 +1,7 @@
 import type { Signal } from '@preact/signals';
 
+import { mayLeave } from './unsaved';
+
 /** Which page is shown; the live page's own addresses (replays) are no concern of it. */
 export type Route =
   | { kind: 'dashboard' }
@@ -17,12 +19,26 @@ export type Route =
   | { kind: 'questionnaire'; id: string; participant: string }
   /** The replays of a study that the user rates. */
   | { kind: 'rating'; id: string }
+  | { kind: 'rubrics' }
+  | { kind: 'rubric'; id: string }
+  | { kind: 'benchmarks' }
   | { kind: 'users' }
   /** Who changed what. */
   | { kind: 'audit' }
   | { kind: 'account' };
 
-const places = ['trainee', 'sessions', 'trash', 'cases', 'studies', 'users', 'audit', 'account'] as const;
+const places = [
+  'trainee',
+  'sessions',
+  'trash',
+  'cases',
+  'studies',
+  'rubrics',
+  'benchmarks',
+  'users',
+  'audit',
+  'account',
+] as const;
 /** Every page that an address can name. */
 export const routeKinds: readonly Route['kind'][] = [
   'dashboard',
@@ -32,6 +48,7 @@ export const routeKinds: readonly Route['kind'][] = [
   'study',
   'questionnaire',
   'rating',
+  'rubric',
   ...places,
 ];
 
@@ -49,7 +66,8 @@ export function routeInAddress(hash: string): Route {
   if (id === undefined) return kind === undefined ? { kind: 'live' } : { kind };
   if (place === 'studies')
     return participant === undefined ? { kind: 'study', id } : { kind: 'questionnaire', id, participant };
-  return place === 'cases' && participant === undefined ? { kind: 'case', id } : { kind: 'live' };
+  if (participant !== undefined) return { kind: 'live' };
+  return place === 'cases' ? { kind: 'case', id } : place === 'rubrics' ? { kind: 'rubric', id } : { kind: 'live' };
 }
 
 export function addressOfRoute(route: Route): string {
@@ -68,11 +86,15 @@ export function addressOfRoute(route: Route): string {
       return `#/studies/${route.id}/answers/${route.participant}`;
     case 'rating':
       return `#/studies/${route.id}/rate`;
+    case 'rubric':
+      return `#/rubrics/${route.id}`;
     case 'trainee':
     case 'sessions':
     case 'trash':
     case 'cases':
     case 'studies':
+    case 'rubrics':
+    case 'benchmarks':
     case 'users':
     case 'audit':
     case 'account':
@@ -87,6 +109,9 @@ export const showsSession = (route: Route): boolean => route.kind === 'live' || 
 export function followRoute(route: Signal<Route>): void {
   window.addEventListener('hashchange', () => {
     const next = routeInAddress(window.location.hash);
-    if (addressOfRoute(next) !== addressOfRoute(route.value)) route.value = next;
+    const here = addressOfRoute(route.value);
+    if (addressOfRoute(next) === here) return;
+    if (mayLeave()) route.value = next;
+    else window.history.replaceState(null, '', here);
   });
 }

@@ -31,6 +31,7 @@ export const appText = {
   sessionsPage: 'Sessions',
   cases: 'Cases',
   studies: 'Studies',
+  rubrics: 'Rubrics',
   users: 'Users',
   pages: 'Pages',
   theme: {

@@ -42,8 +42,7 @@ export const studyText = {
   questionnaire: 'Questionnaire',
   ownQuestionnaire: 'Standard questionnaire: realism and usefulness',
   noQuestionnaire: 'None',
-  fileQuestionnaire: 'From a file…',
-  questionnaireFile: 'Questionnaire file (JSON)',
+  otherQuestionnaire: 'Your own questions',
   fileUnreadable: 'This file is not a valid JSON file.',
   makeButton: 'Create study',
 

@@ -2,6 +2,12 @@ import { problemText } from './problem_text';
 
 export const { noAnswer } = problemText;
 
+/** One thing wrong with a request, where the server names its place: "#/criteria/1/metric". */
+export interface PlacedFault {
+  pointer: string;
+  detail: string;
+}
+
 /** What the server, or the way to it, answered instead of what was asked for; the message is for people. */
 export class ApiError extends Error {
   constructor(
@@ -10,6 +16,7 @@ export class ApiError extends Error {
     readonly status: number,
     /** The server asks not to try again before, s; null when it says nothing. */
     readonly retryAfterS: number | null = null,
+    readonly faults: readonly PlacedFault[] = [],
   ) {
     super(message);
   }
@@ -93,15 +100,22 @@ export async function requestJson<T>(url: string, method: Method, options: CallO
   }
 }
 
+interface Problem {
+  title?: unknown;
+  detail?: unknown;
+  errors?: unknown;
+}
+
 /** Words of an RFC 9457 problem, or of the bare status where the body is none. */
 async function problem(response: Response): Promise<ApiError> {
-  const body = (await response.json().catch(() => null)) as { title?: unknown; detail?: unknown } | null;
+  const body = (await response.json().catch(() => null)) as Problem | null;
   const message = [body?.detail, body?.title].find((text): text is string => typeof text === 'string' && text !== '');
   const wait = Number(response.headers.get('retry-after') ?? NaN);
   return new ApiError(
     message ?? problemText.status(response.status),
     response.status,
     Number.isFinite(wait) && wait > 0 ? wait : null,
+    Array.isArray(body?.errors) ? (body.errors as PlacedFault[]) : [],
   );
 }
 

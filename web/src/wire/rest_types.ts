@@ -7,6 +7,8 @@ export type {
   Answer,
   AssessedPlan,
   Band,
+  Benchmark,
+  BenchmarkSummary,
   BonePart,
   BuildSettings,
   Case,
@@ -24,18 +26,24 @@ export type {
   FeelTrial,
   GivenAnswers,
   Job,
+  KeptRubric,
+  KnownMetric,
   Landmarks,
   Learning,
+  Limits,
   LikertItem,
   Link as ViewerLink,
   Login,
   Mark,
   Measures,
   Metrics,
+  NewBenchmark,
   NewCase,
   NewFeelTrials,
   NewParticipant,
   NewPlan,
+  NewQuestionnaire,
+  NewQuestionnaireItem,
   NewRater,
   NewStudy,
   NewStudyDesign,
@@ -57,6 +65,7 @@ export type {
   Reamer,
   Replay,
   Role,
+  Rubric,
   SampleSize,
   Score,
   ScoredMetric,
@@ -87,6 +96,8 @@ export type SessionPage = Pick<wire.SessionList, 'sessions' | 'next' | 'total'>;
 /** What a study's size depends on, and the question that it is to answer. */
 export type SampleInput = wire.operations['getSampleSize']['parameters']['query'];
 export type SampleQuestion = SampleInput['question'];
+export type RubricSummary = wire.RubricList['rubrics'][number];
+export type Criterion = wire.Rubric['criteria'][number];
 export type Person = wire.PersonList['persons'][number];
 
 export const accountRoles: readonly wire.AccountRole[] = ['operator', 'instructor', 'trainee'];

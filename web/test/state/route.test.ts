@@ -23,6 +23,9 @@ describe('route', () => {
       '#/studies/s1',
       '#/studies/s1/answers/K7-F3M',
       '#/studies/s1/rate',
+      '#/rubrics',
+      '#/rubrics/house-2',
+      '#/benchmarks',
       '#/users',
       '#/trash',
       '#/audit',
@@ -31,7 +34,14 @@ describe('route', () => {
       expect(routeInAddress(hash).kind).not.toBe('live');
       expect(addressOfRoute(routeInAddress(hash))).toBe(hash);
     }
-    for (const hash of ['#/constructor', '#/users/x', '#/cases/a/answers/K7-F3M', '#/studies/s1/answers/k7-f3m'])
+    for (const hash of [
+      '#/constructor',
+      '#/users/x',
+      '#/benchmarks/x',
+      '#/rubrics/a/answers/K7-F3M',
+      '#/cases/a/answers/K7-F3M',
+      '#/studies/s1/answers/k7-f3m',
+    ])
       expect(routeInAddress(hash)).toEqual({ kind: 'live' });
   });
 

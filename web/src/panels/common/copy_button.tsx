@@ -3,8 +3,18 @@ import { useSignal } from '@preact/signals';
 import { pageText } from '../../text/page_text';
 import { Button } from './button';
 
-/** Copies a text; says on itself whether it could. `label` says what is copied. */
-export function CopyButton({ text, label, testId }: { text: string; label?: string; testId?: string }) {
+/** Copies a text; says on itself whether it could. `label` says what is copied, `words` stand on it in place of the usual ones. */
+export function CopyButton({
+  text,
+  label,
+  words,
+  testId,
+}: {
+  text: string;
+  label?: string;
+  words?: string;
+  testId?: string;
+}) {
   const copied = useSignal<boolean | null>(null);
   const copy = async () => {
     copied.value = await navigator.clipboard.writeText(text).then(
@@ -12,7 +22,8 @@ export function CopyButton({ text, label, testId }: { text: string; label?: stri
       () => false,
     );
   };
-  const { copy: before, copied: done, notCopied } = pageText;
+  const { copy: usual, copied: done, notCopied } = pageText;
+  const before = words ?? usual;
   return (
     <Button testId={testId} label={copied.value === null ? label : undefined} onClick={() => void copy()}>
       <span role="status">{copied.value === null ? before : copied.value ? done : notCopied}</span>

@@ -23,6 +23,7 @@ function waysFor(may: Permissions): (readonly [Route, string])[] {
     [{ kind: 'sessions' }, appText.sessionsPage, may.ream],
     [{ kind: 'cases' }, appText.cases, may.readCases],
     [{ kind: 'studies' }, appText.studies, may.takePart],
+    [{ kind: 'rubrics' }, appText.rubrics, may.teach],
     [{ kind: 'users' }, appText.users, may.operate],
   ];
   return links.flatMap(([route, text, offered]) => (offered ? [[route, text] as const] : []));

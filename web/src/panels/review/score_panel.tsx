@@ -35,6 +35,19 @@ export function ScorePanel({ panes }: { panes: readonly Pane[] }) {
   );
 }
 
+/** The same of one session, where there is no more than its score. */
+export function ScoreCard({ score }: { score: Score }) {
+  const pointed = useSignal<Pointed | null>(null);
+  return (
+    <>
+      <Mark score={score} problem={null} place={0} several={false} />
+      <Metrics scores={[score]} first={score} pointed={pointed} />
+      <Limits />
+      {pointed.value !== null && <MetricCard pointed={pointed.value} scores={[score]} />}
+    </>
+  );
+}
+
 /** Under the marks: what they do not rest on. */
 function Limits() {
   return (

@@ -1,3 +1,4 @@
+import { useSignal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
 
 import { type QuestionnaireChoice, StudyDraft } from '../../state/study/study_draft';
@@ -12,11 +13,14 @@ import { useRemote } from '../common/use_remote';
 import { Button } from '../common/button';
 import { DesignFields } from './design_fields';
 import { FeelFields } from './feel_fields';
+import { QuestionnaireEditor } from './questionnaire_editor';
+import { QuestionnairePreview } from './questionnaire_preview';
 import { SampleSizeHelp } from './sample_size_help';
 
 /** The form for another study. */
 export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: string) => void }) {
   const draft = useMemo(() => new StudyDraft(), []);
+  const previewed = useSignal(false);
   const make = async (event: Event) => {
     event.preventDefault();
     draft.problem.value = null;
@@ -49,7 +53,7 @@ export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: st
           }}
           onChange={(device) => (draft.device.value = device)}
         />
-        <QuestionnaireFields draft={draft} />
+        <QuestionnaireFields draft={draft} onPreview={() => (previewed.value = true)} />
         {draft.feel.used.value ? <FeelFields draft={draft.feel} /> : <DesignAndRaters draft={draft} />}
         <DescriptionField draft={draft} />
         {!draft.feel.used.value && <CaseFields draft={draft} />}
@@ -57,6 +61,12 @@ export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: st
           {studyText.makeButton}
         </Button>
       </form>
+      {previewed.value && (
+        <QuestionnairePreview
+          questionnaire={draft.questionnaire.questionnaire.value}
+          close={() => (previewed.value = false)}
+        />
+      )}
       {draft.problem.value !== null && (
         <Message kind="bad" testId="make-problem">
           {draft.problem.value}
@@ -85,10 +95,10 @@ function DesignAndRaters({ draft }: { draft: StudyDraft }) {
 const questionnaires: readonly (readonly [QuestionnaireChoice, string])[] = [
   ['ours', studyText.ownQuestionnaire],
   ['none', studyText.noQuestionnaire],
-  ['file', studyText.fileQuestionnaire],
+  ['own', studyText.otherQuestionnaire],
 ];
 
-function QuestionnaireFields({ draft }: { draft: StudyDraft }) {
+function QuestionnaireFields({ draft, onPreview }: { draft: StudyDraft; onPreview: () => void }) {
   return (
     <>
       <Choice
@@ -96,16 +106,12 @@ function QuestionnaireFields({ draft }: { draft: StudyDraft }) {
         options={questionnaires}
         onChange={(value) => (draft.questionnaireChoice.value = value as QuestionnaireChoice)}
       />
-      {draft.questionnaireChoice.value === 'file' && (
-        <label>
-          {studyText.questionnaireFile}
-          <input
-            type="file"
-            accept=".json,application/json"
-            data-testid="questionnaire-file"
-            onChange={(event) => void draft.readQuestionnaire(event.currentTarget.files?.[0])}
-          />
-        </label>
+      {draft.questionnaireChoice.value === 'own' && (
+        <QuestionnaireEditor
+          draft={draft.questionnaire}
+          read={(file) => void draft.readQuestionnaire(file)}
+          onPreview={onPreview}
+        />
       )}
     </>
   );

@@ -23,7 +23,8 @@ export function valueText({ value, unit }: Pick<ScoredMetric, 'value' | 'unit'>)
   return value === null ? fixed(null, 0) : withUnit(number(value), unit);
 }
 
-function withUnit(text: string, unit: string | null): string {
+/** A number that is a text already, with its unit. */
+export function withUnit(text: string, unit: string | null): string {
   const shown = unitOf(unit);
   return shown === '' ? text : shown === '°' ? `${text}°` : `${text} ${shown}`;
 }

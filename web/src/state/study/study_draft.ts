@@ -2,11 +2,13 @@ import { signal } from '@preact/signals';
 
 import { DesignDraft } from './design_draft';
 import { FeelDraft } from './feel_draft';
+import { QuestionnaireDraft } from './questionnaire_draft';
 import { studyText } from '../../text/study_text';
+import { messageOf } from '../../wire/rest';
 import type { NewStudy } from '../../wire/rest_types';
 
 /** Whose questionnaire a study asks. */
-export type QuestionnaireChoice = 'ours' | 'none' | 'file';
+export type QuestionnaireChoice = 'ours' | 'none' | 'own';
 
 /** A study as it is being filled in. */
 export class StudyDraft {
@@ -21,13 +23,13 @@ export class StudyDraft {
   /** Raters fill in the form that comes with the program; else nobody rates. */
   readonly rated = signal(true);
   readonly questionnaireChoice = signal<QuestionnaireChoice>('ours');
-  /** From a file; whether it is one, the server says. */
-  readonly questionnaire = signal<NewStudy['questionnaire']>(null);
+  /** Written here, or from a file. */
+  readonly questionnaire = new QuestionnaireDraft();
   /** Why the questionnaire's file cannot be used, or the study not be made. */
   readonly problem = signal<string | null>(null);
 
   get complete(): boolean {
-    const answerable = this.questionnaireChoice.value !== 'file' || this.questionnaire.value !== null;
+    const answerable = this.questionnaireChoice.value !== 'own' || this.questionnaire.faults.value.size === 0;
     if (this.feel.used.value) return answerable && this.feel.complete;
     return answerable && this.design.complete && this.cases.value.length > 0;
   }
@@ -38,13 +40,19 @@ export class StudyDraft {
   }
 
   async readQuestionnaire(file: File | undefined): Promise<void> {
-    this.questionnaire.value = null;
     this.problem.value = null;
     if (file === undefined) return;
+    let content: unknown;
     try {
-      this.questionnaire.value = JSON.parse(await file.text()) as NewStudy['questionnaire'];
+      content = JSON.parse(await file.text());
     } catch {
       this.problem.value = studyText.fileUnreadable;
+      return;
+    }
+    try {
+      this.questionnaire.load(content);
+    } catch (error) {
+      this.problem.value = messageOf(error);
     }
   }
 
@@ -55,11 +63,14 @@ export class StudyDraft {
       name: this.name.value.trim(),
       description: this.description.value.trim(),
       ...(this.device.value === '' ? {} : { device: this.device.value }),
-      ...(questionnaireChoice === 'ours'
-        ? {}
-        : { questionnaire: questionnaireChoice === 'none' ? null : this.questionnaire.value }),
+      ...(questionnaireChoice === 'ours' ? {} : { questionnaire: questionnaireChoice === 'none' ? null : this.own() }),
       ...(this.feel.used.value ? { feel: this.feel.feel(), rating_form: null } : this.ofScores()),
     };
+  }
+
+  /** The server takes it as it is: nothing of it is left out. */
+  private own(): NewStudy['questionnaire'] {
+    return this.questionnaire.questionnaire.value as NewStudy['questionnaire'];
   }
 
   private ofScores(): Pick<NewStudy, 'cases' | 'design' | 'rating_form'> {

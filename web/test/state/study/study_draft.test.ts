@@ -34,7 +34,7 @@ describe('study draft', () => {
     });
     draft.questionnaireChoice.value = 'none';
     expect(draft.study().questionnaire).toBeNull();
-    draft.questionnaireChoice.value = 'file';
+    draft.questionnaireChoice.value = 'own';
     expect(draft.complete).toBe(false);
   });
 
