@@ -15,7 +15,7 @@ async function faults(page: Page): Promise<string[]> {
 const overflow = (page: Page) =>
   page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
 
-test('Help leads to the list of papers, and that to each paper', async ({ page }) => {
+test('Help leads to the list of guides, and that to each guide', async ({ page }) => {
   const violations: string[] = [];
   page.on('console', (message) => {
     if (message.type() === 'error') violations.push(message.text());
@@ -23,22 +23,22 @@ test('Help leads to the list of papers, and that to each paper', async ({ page }
   await page.goto(`${here.server.url}/#/cases`);
   await page.getByTestId('to-help').click();
   await expect(page).toHaveURL(/\/docs\/$/);
-  await expect(page.getByRole('heading', { level: 1 })).toHaveText('Papers');
+  await expect(page.getByRole('heading', { level: 1 })).toHaveText('Guides');
 
-  await page.getByRole('main').getByRole('link', { name: 'docs/trainee.md' }).click();
+  await page.getByRole('main').getByRole('link', { name: 'For trainees' }).click();
   await expect(page.getByRole('heading', { level: 1 })).toHaveText('For trainees');
   await page.getByRole('navigation', { name: 'On this page' }).getByRole('link', { name: 'Depth' }).click();
   await expect(page).toHaveURL(/trainee\.html#depth$/);
-  await page.getByRole('navigation', { name: 'All papers' }).getByRole('link', { name: 'Troubleshooting' }).click();
+  await page.getByRole('navigation', { name: 'All guides' }).getByRole('link', { name: 'Troubleshooting' }).click();
   await expect(page.getByRole('heading', { level: 1 })).toHaveText('Troubleshooting');
 
   const reply = await page.goto(`${here.server.url}/docs`);
   expect(reply?.status()).toBe(200);
-  await expect(page.getByRole('heading', { level: 1 })).toHaveText('Papers');
+  await expect(page.getByRole('heading', { level: 1 })).toHaveText('Guides');
   expect(violations).toEqual([]);
 });
 
-test('axe finds nothing on papers, in light and dark, and no window is too narrow', async ({ page }, info) => {
+test('axe finds nothing on guides, in light and dark, and no window is too narrow', async ({ page }, info) => {
   test.setTimeout(120_000);
   for (const paper of ['', 'trainee.html', 'reference.html', 'api.html', 'contributing.html'])
     for (const colorScheme of ['light', 'dark'] as const) {
@@ -48,7 +48,7 @@ test('axe finds nothing on papers, in light and dark, and no window is too narro
       for (const width of [390, 768, 1280, 1920]) {
         await page.setViewportSize({ width, height: 900 });
         expect.soft(await overflow(page), `${paper} ${width}`).toBe(0);
-        await page.screenshot({ path: info.outputPath(`${paper}-${colorScheme}-${width}.png`) });
+        await page.screenshot({ path: info.outputPath(`${paper || 'index'}-${colorScheme}-${width}.png`) });
       }
     }
 });

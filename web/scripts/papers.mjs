@@ -44,8 +44,12 @@ function anchors() {
 const read = (paper) => readFileSync(join(repository, paper), 'utf8');
 const titleOf = (paper) => (paper === 'README.md' ? 'About ream' : (/^# (.+)$/m.exec(read(paper))?.[1] ?? paper));
 
+/** README's part for readers, which names the papers by role. */
+const byRole = () => /^## Where to read on\n([\s\S]*?)(?=^## )/m.exec(read('README.md'))?.[1] ?? '';
+
 function linkedPapers(paper) {
-  const targets = [...read(paper).matchAll(/\]\(([^)\s#]+\.md)(#[^)]*)?\)/g)].map(([, target]) => target);
+  const text = paper === 'README.md' ? byRole() + read(paper) : read(paper);
+  const targets = [...text.matchAll(/\]\(([^)\s#]+\.md)(#[^)]*)?\)/g)].map(([, target]) => target);
   return targets.filter((target) => !isElsewhere(target)).map((target) => normalize(join(dirname(paper), target)));
 }
 
@@ -89,9 +93,12 @@ function rulesFor(paper, contents) {
       const link = `<a class="anchor" href="#${id}" aria-label="Link to ${escaped(plain)}">#</a>`;
       return `<h${depth} id="${id}">${inner} ${link}</h${depth}>\n`;
     },
-    link({ href, tokens }) {
-      const inner = this.parser.parseInline(tokens);
+    link({ href, tokens, text }) {
       const address = addressOf(paper, href);
+      const isPath = text.endsWith('.md') && address !== null && !isElsewhere(href);
+      const inner = isPath
+        ? escaped(titleOf(normalize(join(dirname(paper), href.split('#')[0]))))
+        : this.parser.parseInline(tokens);
       return address === null ? inner : `<a href="${escaped(address)}">${inner}</a>`;
     },
     image: ({ href, text }) =>
@@ -133,14 +140,14 @@ const page = (here, title, { body, contents }) => `<!doctype html>
 <a class="skip" href="#content">Skip to the text</a>
 <header>
 ${apart ? '<strong>ream</strong>' : '<a href="../">ream</a>'}
-<a href="index.html"${here === null ? ' aria-current="page"' : ''}>Papers</a>
-<a class="to-list" href="#papers">All papers</a>
+<a href="index.html"${here === null ? ' aria-current="page"' : ''}>Guides</a>
+<a class="to-list" href="#papers">All guides</a>
 </header>
 <div class="columns">
 <main id="content">
 ${body.replace('</h1>\n', `</h1>\n${contentsOf(contents)}`)}</main>
-<nav id="papers" class="papers" aria-label="All papers">
-<h2>All papers</h2>
+<nav id="papers" class="papers" aria-label="All guides">
+<h2>All guides</h2>
 <ul>${papers.map(listItem(here)).join('')}</ul>
 </nav>
 </div>
@@ -148,21 +155,15 @@ ${body.replace('</h1>\n', `</h1>\n${contentsOf(contents)}`)}</main>
 </html>
 `;
 
-/** README's part for readers, which names the papers by role. */
-function papersByRole() {
-  const part = /^## Where to read on\n([\s\S]*?)(?=^## )/m.exec(read('README.md'))?.[1] ?? '';
-  return rendered('README.md', `# Papers\n${part}`);
-}
-
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
 copyFileSync(join(repository, 'packaging/papers.css'), join(folder, 'papers.css'));
-writeFileSync(join(folder, 'index.html'), page(null, 'Papers', papersByRole()));
+writeFileSync(join(folder, 'index.html'), page(null, 'Guides', rendered('README.md', `# Guides\n${byRole()}`)));
 // Whoever asks for the folder without a stroke behind its name.
 if (!apart)
   writeFileSync(
     `${folder}.html`,
-    `<!doctype html>\n<html lang="en">\n<title>Papers</title>\n<meta http-equiv="refresh" content="0; url=${basename(folder)}/">\n<a href="${basename(folder)}/">Papers</a>\n</html>\n`,
+    `<!doctype html>\n<html lang="en">\n<title>Guides</title>\n<meta http-equiv="refresh" content="0; url=${basename(folder)}/">\n<a href="${basename(folder)}/">Guides</a>\n</html>\n`,
   );
 for (const paper of papers)
   writeFileSync(join(folder, pageOf(paper)), page(paper, titleOf(paper), rendered(paper, read(paper))));
