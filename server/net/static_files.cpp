@@ -31,12 +31,12 @@ fs::path safe_relative(const std::string& path) {
   return relative;
 }
 
-/// A page may be asked for without the ending of its file.
+/// A page may be asked for without the ending of its file, also one that is called as a folder beside it.
 fs::path file_of(const fs::path& path) {
   std::error_code failed;
   fs::path page = path;
   page += ".html";
-  return !fs::exists(path, failed) && fs::is_regular_file(page, failed) ? page : path;
+  return !fs::is_regular_file(path, failed) && fs::is_regular_file(page, failed) ? page : path;
 }
 
 bool is_inside(const fs::path& file, const fs::path& folder) {

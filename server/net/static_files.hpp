@@ -7,7 +7,7 @@
 namespace ream::net {
 
 /// Serves the files of one folder, never anything outside it (".." and hidden names are refused, links that
-/// lead out as well). "/" is index.html, and "/x" is x.html where there is no x. With ETag; files under
+/// lead out as well). "/" is index.html, and "/x" is x.html where there is no file x. With ETag; files under
 /// /assets/ carry their hash in the name and are cached for a year, all others are asked for again.
 class StaticFiles {
  public:

@@ -87,7 +87,7 @@ SessionFiles::Results run_headless(Simulation& simulation, std::span<const uint8
   if (guessed_s > min_reported_guessed_s)
     log::warn(
         "feed is extrapolated during " + std::to_string(guessed_s) +
-        " s, as nobody has measured bone of such density; see extrapolated_time_s in docs/researcher.md");
+        " s, as nobody has measured bone of such density; see extrapolated_time_s in docs/reference.md");
   if (simulation.bone_case.calibration.scanner.empty() && !is_phantom(simulation.bone_case))
     log::warn("the densities of case '" + simulation.bone_case.id +
               "' are a guess: its scan was turned into density by an example calibration");

@@ -52,6 +52,11 @@ TEST_F(StaticFilesTest, APageIsFoundWithoutItsEnding) {
   EXPECT_EQ(get("/api").content_type, "text/html; charset=utf-8");
   EXPECT_EQ(get("/api").body->size(), 9u);
   EXPECT_EQ(get("/api", std::string(get("/api").header("ETag"))).status, 304);
+  fs::create_directories(root / "docs");
+  write_file_atomically(root / "docs.html", std::string_view("<html>docs"));
+  write_file_atomically(root / "docs" / "index.html", std::string_view("<html>all papers"));
+  EXPECT_EQ(get("/docs").body->size(), 10u);
+  EXPECT_EQ(get("/docs/").body->size(), 16u);
   for (const char* path : {"/api/", "/assets", "/assets/app-1234", "/../outside", "/apis"})
     EXPECT_THROW(get(path), Error) << path;
 }

@@ -75,6 +75,13 @@ nlohmann::ordered_json schema_of(const Metric& metric) {
   value["description"] = std::string(metric.name) + ", " +
                          (metric.unit.empty() ? "no unit" : std::string(metric.unit)) + ". " +
                          std::string(metric.definition);
+  value["x-group"] = metric.group == MetricGroup::alignment ? "alignment"
+                     : metric.group == MetricGroup::bone    ? "bone"
+                                                            : "handling";
+  value["x-limits"] = band_json(metric.band);
+  value["x-source"] = metric.source;
+  value["x-evidence"] = to_text(metric.evidence);
+  value["x-confidence"] = metric.confidence;
   return value;
 }
 
@@ -107,7 +114,7 @@ std::string metrics_schema() {
   "$schema": "https://json-schema.org/draft/2020-12/schema",
   "$id": "metrics.schema.json",
   "title": "Metrics of a session",
-  "description": "metrics.json, what `ream score` gives and what the API says of a session. A metric that could not be measured is null, with its reason in `missing`. Nothing differs between two equal runs. Made from the catalogue of metrics, server/score/metric_catalogue.cpp, which also has source, confidence and limits of each.",
+  "description": "metrics.json, what `ream score` gives and what the API says of a session. A metric that could not be measured is null, with its reason in `missing`. Nothing differs between two equal runs. Made from the catalogue of metrics, server/score/metric_catalogue.cpp. Keys that begin with x- say how good a value is and where that comes from: limits, source, evidence (S published, M common knowledge, E engineering judgement, T tested here) and confidence.",
   "type": "object",
   "additionalProperties": false,
   "required": [

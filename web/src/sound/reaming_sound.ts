@@ -35,7 +35,7 @@ export type SoundMessage = SoundParameters | { vibrationG: Float32Array };
 
 export const silence: SoundParameters = { motorHz: 0, motorGain: 0, cuttingHz: 0, cuttingGain: 0, trackGain: 0 };
 
-/** g rms of a reamer in bone: Faieghi's cadaver experiments, as docs/researcher.md has them. */
+/** g rms of a reamer in bone: Faieghi's cadaver experiments, as docs/reference.md has them. */
 export const corticalGRms = 0.3;
 export const cancellousGRms = 0.4;
 /** The thrust at which they were measured, N. */

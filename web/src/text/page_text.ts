@@ -1,5 +1,7 @@
 /** Words that several pages share. */
 export const pageText = {
+  help: 'Help',
+  helpHint: 'Guides for every role, and what messages mean',
   actions: 'Actions',
   auditLog: 'Audit log',
   deletedSessions: 'Deleted sessions',

@@ -1,6 +1,8 @@
+import { spawnSync } from 'node:child_process';
+
 import { describe, expect, it } from 'vitest';
 
-import { anchorOf, deadLinks, paperNames, readPaper, sentences, wordCount } from './papers';
+import { anchorOf, deadLinks, paperNames, readPaper, repository, sentences, wordCount } from './papers';
 
 describe('Papers', () => {
   const names = paperNames();
@@ -18,6 +20,14 @@ describe('Papers', () => {
       expect(long / lengths.length, `${long} of ${lengths.length}`).toBeLessThanOrEqual(0.1);
     },
   );
+
+  it('have the tables that follow from the program', () => {
+    const { status, stderr } = spawnSync('python3', ['scripts/write-reference', '--check'], {
+      cwd: repository,
+      encoding: 'utf8',
+    });
+    expect(status, stderr).toBe(0);
+  });
 
   it('begin with a page that is one page', () => {
     const text = readPaper('README.md');

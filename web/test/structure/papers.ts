@@ -2,7 +2,8 @@
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { dirname, join, normalize, relative } from 'node:path';
 
-const root = new URL('../../../', import.meta.url).pathname;
+export const repository = new URL('../../../', import.meta.url).pathname;
+const root = repository;
 
 /** Names of all papers, from the root. */
 export function paperNames(): string[] {
@@ -63,3 +64,7 @@ export function sentences(text: string): string[] {
 
 export const wordCount = (sentence: string) =>
   sentence.split(/\s+/).filter((word) => /[\p{L}\p{N}]/u.test(word)).length;
+
+/** Blocks of a paper that are to be run as they stand: those that begin with "```sh run". */
+export const runnableBlocks = (text: string) =>
+  [...text.matchAll(/^```sh run\n([\s\S]*?)^```$/gm)].map(([, block = '']) => block);

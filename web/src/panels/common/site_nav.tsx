@@ -5,6 +5,7 @@ import type { Identity } from '../../state/identity';
 import type { Permissions } from '../../state/permissions';
 import { addressOfRoute, type Route } from '../../state/route';
 import { appText } from '../../text/app_text';
+import { pageText } from '../../text/page_text';
 import { ThemeButton } from './theme_button';
 
 /** Who uses the page; given once at its root. */
@@ -53,6 +54,9 @@ export function SiteNav({ here }: { here: Route['kind'] }) {
 export function HeaderEnd() {
   return (
     <div class="header-end">
+      <a class="help-link" href="./docs/" title={pageText.helpHint} data-testid="to-help">
+        {pageText.help}
+      </a>
       <ThemeButton />
       <WhoAmI />
     </div>
