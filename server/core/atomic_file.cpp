@@ -156,7 +156,14 @@ void AtomicFolder::commit() {
     if (had_old) fs::remove_all(old, ignored);
   }
   committed_ = true;
-  sync_folder(final_.parent_path());
+  try {
+    sync_folder(final_.parent_path());
+  } catch (const Error&) {
+    // What cannot be promised to last is taken back.
+    const unsigned back = exchanged ? RENAME_EXCHANGE : RENAME_NOREPLACE;
+    committed_ = ::renameat2(AT_FDCWD, final_.c_str(), AT_FDCWD, temporary_.c_str(), back) != 0;
+    throw;
+  }
   if (exchanged) fs::remove_all(temporary_, ignored);
 }
 

@@ -70,7 +70,10 @@ class DiskFault : public ServeBlock, public testing::WithParamInterface<const ch
   /// The folder is as it was.
   void check_failed(const std::vector<std::string>& before, const Outcome& outcome) {
     EXPECT_EQ(joined(added(before, tree())), "") << "is left. " << outcome.error;
-    EXPECT_EQ(joined(added(tree(), before)), "") << "is gone. " << outcome.error;
+    // What a call that failed in cleaning up has left is gone by the next command.
+    std::vector<std::string> gone = added(tree(), before);
+    std::erase_if(gone, [](const std::string& name) { return name.find("data/.backup.") == 0; });
+    EXPECT_EQ(joined(gone), "") << "is gone. " << outcome.error;
   }
   static std::vector<std::string> added(const std::vector<std::string>& before,
                                         const std::vector<std::string>& after) {
