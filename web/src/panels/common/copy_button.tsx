@@ -3,18 +3,17 @@ import { useSignal } from '@preact/signals';
 import { pageText } from '../../text/page_text';
 import { Button } from './button';
 
-/** Copies a text; says on itself whether it could. `label` says what is copied, `words` stand on it in place of the usual ones. */
-export function CopyButton({
-  text,
-  label,
-  words,
-  testId,
-}: {
+interface Parts {
   text: string;
+  /** What is copied. */
   label?: string;
+  /** Stand on it in place of the usual ones. */
   words?: string;
   testId?: string;
-}) {
+}
+
+/** Copies a text; says on itself whether it could. */
+export function CopyButton({ text, label, words, testId }: Parts) {
   const copied = useSignal<boolean | null>(null);
   const copy = async () => {
     copied.value = await navigator.clipboard.writeText(text).then(
