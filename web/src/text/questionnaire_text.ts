@@ -20,7 +20,7 @@ export const questionnaireText = {
   low: 'Lowest',
   middle: 'Middle (may be empty)',
   high: 'Highest',
-  cannotJudge: 'Offer “Cannot judge”',
+  cannotJudge: 'Offer “Cannot say”',
   options: 'Options',
   option: (number: number) => `Option ${number}`,
   addOption: 'Add option',
