@@ -1,5 +1,6 @@
 import { useSignal } from '@preact/signals';
 
+import { ColumnHeads } from '../panels/common/column_heads';
 import { PageHeader } from '../panels/common/page_header';
 import { Message } from '../panels/common/fields';
 import { useRemote } from '../panels/common/use_remote';
@@ -46,20 +47,11 @@ export function BenchmarksPage({ api }: { api: RubricApi }) {
 }
 
 function BenchmarkTable({ list, open }: { list: readonly BenchmarkSummary[]; open: (id: string) => void }) {
+  const { nameColumn, whenColumn, expertsColumn, novicesColumn, metricsColumn } = benchmarkText;
   return (
     <div class="table-scroll">
       <table class="data-table">
-        <thead>
-          <tr>
-            <th scope="col">{benchmarkText.nameColumn}</th>
-            <th scope="col">{benchmarkText.whenColumn}</th>
-            {[benchmarkText.expertsColumn, benchmarkText.novicesColumn, benchmarkText.metricsColumn].map((name) => (
-              <th key={name} scope="col" class="number">
-                {name}
-              </th>
-            ))}
-          </tr>
-        </thead>
+        <ColumnHeads names={[nameColumn, whenColumn, expertsColumn, novicesColumn, metricsColumn]} numbersFrom={2} />
         <tbody>
           {list.map(({ id, name, created_utc, experts, novices, metrics }) => (
             <tr key={id} data-testid={`benchmark-${id}`}>

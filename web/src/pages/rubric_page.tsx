@@ -21,18 +21,21 @@ export function RubricPage({ api, id }: { api: RubricApi; id: string }) {
     <div class="page content-page">
       <PageHeader here="rubrics" />
       <main class="content" data-testid="rubric">
-        {draft === null ? (
-          <section class="content-panel">
-            <p>
-              <a href={addressOfRoute({ kind: 'rubrics' })}>‹ {rubricText.back}</a>
-            </p>
-            {problem === null ? <p class="soft">{rubricText.loading}</p> : <Message kind="bad">{problem}</Message>}
-          </section>
-        ) : (
-          <RubricEditor api={api} id={id} draft={draft} />
-        )}
+        {draft === null ? <Opening problem={problem} /> : <RubricEditor api={api} id={id} draft={draft} />}
       </main>
       {draft !== null && <SaveBar api={api} id={id} draft={draft} />}
     </div>
+  );
+}
+
+/** Until it is there, or why it is not. */
+function Opening({ problem }: { problem: string | null }) {
+  return (
+    <section class="content-panel">
+      <p>
+        <a href={addressOfRoute({ kind: 'rubrics' })}>‹ {rubricText.back}</a>
+      </p>
+      {problem === null ? <p class="soft">{rubricText.loading}</p> : <Message kind="bad">{problem}</Message>}
+    </section>
   );
 }

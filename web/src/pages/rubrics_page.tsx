@@ -1,6 +1,7 @@
 import { useSignal } from '@preact/signals';
 
 import { Button } from '../panels/common/button';
+import { ColumnHeads } from '../panels/common/column_heads';
 import { Message } from '../panels/common/fields';
 import { Choice, TextLine } from '../panels/common/form_fields';
 import { PageHeader } from '../panels/common/page_header';
@@ -45,17 +46,7 @@ function RubricTable({ list }: { list: readonly RubricSummary[] }) {
   return (
     <div class="table-scroll">
       <table class="data-table">
-        <thead>
-          <tr>
-            <th scope="col">{rubricText.nameColumn}</th>
-            <th scope="col" class="number">
-              {rubricText.versionColumn}
-            </th>
-            <th scope="col" class="number">
-              {rubricText.passColumn}
-            </th>
-          </tr>
-        </thead>
+        <ColumnHeads names={[rubricText.nameColumn, rubricText.versionColumn, rubricText.passColumn]} numbersFrom={1} />
         <tbody>
           {list.map(({ id, name, version, pass_points }) => (
             <tr key={id} data-testid={`rubric-${id}`}>

@@ -10,6 +10,7 @@ import { sentence } from '../../text/format';
 import type { AccessApi } from '../../wire/access_api';
 import type { User } from '../../wire/rest_types';
 import { Button } from '../common/button';
+import { ColumnHeads } from '../common/column_heads';
 import { CopyButton } from '../common/copy_button';
 import { Message } from '../common/fields';
 
@@ -88,15 +89,7 @@ function Checked({ bulk, rows }: { bulk: BulkUsers; rows: readonly UserRow[] }) 
   return (
     <div class="table-scroll" role="region" aria-label={bulkUsersText.stateColumn} tabIndex={0}>
       <table class="data-table" data-testid="bulk-table">
-        <thead>
-          <tr>
-            {[lineColumn, nameColumn, shownColumn, roleColumn, passwordColumn, stateColumn].map((name) => (
-              <th key={name} scope="col">
-                {name}
-              </th>
-            ))}
-          </tr>
-        </thead>
+        <ColumnHeads names={[lineColumn, nameColumn, shownColumn, roleColumn, passwordColumn, stateColumn]} />
         <tbody>
           {rows.map((row) => (
             <tr key={row.line} data-testid={`bulk-line-${row.line}`}>

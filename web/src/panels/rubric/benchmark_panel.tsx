@@ -3,6 +3,7 @@ import { benchmarkText } from '../../text/benchmark_text';
 import type { Benchmark, KnownMetric } from '../../wire/rest_types';
 import type { RubricApi } from '../../wire/rubric_api';
 import { Button } from '../common/button';
+import { ColumnHeads } from '../common/column_heads';
 import { Message } from '../common/fields';
 import { useRemote } from '../common/use_remote';
 
@@ -46,15 +47,7 @@ function NumberTable({ label, caption, columns, rows }: TableParts) {
     <div class="table-scroll" role="region" aria-label={label} tabIndex={0}>
       <table class="data-table">
         {caption === true && <caption>{label}</caption>}
-        <thead>
-          <tr>
-            {columns.map((name, i) => (
-              <th key={name} scope="col" class={i === 0 ? '' : 'number'}>
-                {name}
-              </th>
-            ))}
-          </tr>
-        </thead>
+        <ColumnHeads names={columns} numbersFrom={1} />
         <tbody>
           {rows.map(([name, ...values]) => (
             <tr key={name}>

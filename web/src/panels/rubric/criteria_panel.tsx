@@ -3,6 +3,7 @@ import { useEffect } from 'preact/hooks';
 
 import type { RubricDraft } from '../../state/rubric/rubric_draft';
 import { rubricText } from '../../text/rubric_text';
+import { Choice } from '../common/form_fields';
 import { CriterionCard } from './criterion_card';
 import { Fault } from '../common/fault_field';
 
@@ -35,25 +36,11 @@ function AddMetric({ draft, onAdded }: { draft: RubricDraft; onAdded: (key: numb
   if (unused.length === 0) return <p class="soft">{rubricText.noMore}</p>;
   return (
     <div class="content-form">
-      <label>
-        {rubricText.addMetric}
-        <select
-          data-testid="add-metric"
-          value=""
-          onChange={(event) => {
-            const metric = event.currentTarget.value;
-            event.currentTarget.value = '';
-            if (metric !== '') onAdded(draft.add(metric));
-          }}
-        >
-          <option value="">{rubricText.chooseMetric}</option>
-          {unused.map(({ metric, name }) => (
-            <option key={metric} value={metric}>
-              {name}
-            </option>
-          ))}
-        </select>
-      </label>
+      <Choice
+        {...{ label: rubricText.addMetric, testId: 'add-metric', value: '' }}
+        options={[['', rubricText.chooseMetric], ...unused.map(({ metric, name }) => [metric, name] as const)]}
+        onChange={(metric) => onAdded(draft.add(metric))}
+      />
     </div>
   );
 }

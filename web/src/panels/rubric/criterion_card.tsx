@@ -96,16 +96,22 @@ function Details({ line, opened, bad }: { line: LineParts; opened: boolean; bad:
         <LimitsFields line={line} />
       </div>
       {line.criterion.points === 'curve' && <CurveFields line={line} />}
-      <label class="criterion-source">
-        {rubricText.source}
-        <input
-          type="text"
-          maxLength={1000}
-          value={line.criterion.source}
-          onInput={(event) => line.change({ source: event.currentTarget.value })}
-        />
-      </label>
+      <SourceField line={line} />
     </details>
+  );
+}
+
+function SourceField({ line }: { line: LineParts }) {
+  return (
+    <label class="criterion-source">
+      {rubricText.source}
+      <input
+        type="text"
+        maxLength={1000}
+        value={line.criterion.source}
+        onInput={(event) => line.change({ source: event.currentTarget.value })}
+      />
+    </label>
   );
 }
 
