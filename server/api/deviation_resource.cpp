@@ -62,7 +62,8 @@ net::Response get_deviation(const Services& services, const net::Request& reques
   std::error_code failed;
   if (!fs::is_regular_file(session::recording_file(folder), failed))
     throw Error(ErrorKind::not_found, "session '" + id + "' left no recording; it was never started");
-  return accepted(request.caller, work_in_folder(services.jobs, "deviation", request.caller, record, folder,
+  return accepted(request.caller,
+                  work_in_folder(services.jobs, "deviation", request.caller, record, folder,
                                  [&engine = services.engine](const fs::path& work, const Progress& progress) {
                                    engine.write_deviations(work, work / description_name, progress);
                                  }));

@@ -104,12 +104,13 @@ net::Response begin_rescoring(const Services& services, const net::Request& requ
   services.audit(request, "session.rescore", "",
                  std::to_string(all.ids.size()) + " sessions by " + all.judge.rubric_id + "@" +
                      std::to_string(all.judge.rubric.version));
-  return accepted(request.caller, services.jobs.submit_file(
-      {"rescoring"}, [all = std::move(all)](const fs::path& folder, const Progress& progress) {
-        const json report = rescore_all(all, progress);
-        write_file_atomically(folder / "rescoring.json", report.dump(2) + "\n");
-        return jobs::JobService::MadeFile{"rescoring.json", "application/json"};
-      }));
+  return accepted(request.caller,
+                  services.jobs.submit_file({"rescoring"}, [all = std::move(all)](const fs::path& folder,
+                                                                                  const Progress& progress) {
+                    const json report = rescore_all(all, progress);
+                    write_file_atomically(folder / "rescoring.json", report.dump(2) + "\n");
+                    return jobs::JobService::MadeFile{"rescoring.json", "application/json"};
+                  }));
 }
 
 }  // namespace

@@ -19,9 +19,9 @@ constexpr std::chrono::milliseconds again_after = std::chrono::minutes(1);
 
 /// A clock that is corrected by more than this was wrong; the day after is too early to trust it.
 constexpr std::chrono::minutes even_within{10};
-constexpr std::chrono::hours trusted_after{24};
-/// Longer than this a server may well be off, but then a day more does no harm.
-constexpr std::chrono::hours off_at_most{48};
+constexpr std::chrono::nanoseconds trusted_after = std::chrono::hours(24);
+/// A long weekend. A server that was off for longer waits a day more, which does no harm.
+constexpr std::chrono::hours max_off{96};
 constexpr size_t always_may_go = 20;
 
 std::string days_text(int days) { return std::to_string(days) + (days == 1 ? " day" : " days"); }
@@ -69,50 +69,54 @@ std::string Retention::held() const {
   return held_;
 }
 
-void Retention::distrust_since(std::chrono::nanoseconds running, const std::string& why) {
-  doubted_at_ = running;
-  reason_ = why;
-}
-
-/// Empty: there is nothing against the clock.
-std::string Retention::doubt_at_start(UtcMoment wall) const {
+/// Goes on with what an earlier run knew of the clock.
+void Retention::begin_with(UtcMoment wall) {
   std::error_code failed;
-  if (rules_.clock_file.empty() || !std::filesystem::exists(rules_.clock_file, failed)) return {};
-  std::string trusted_utc;
+  if (rules_.clock_file.empty() || !std::filesystem::exists(rules_.clock_file, failed)) return;
   try {
-    trusted_utc = read_json_file(rules_.clock_file).at("trusted_utc").get<std::string>();
-    const auto by = wall - utc_moment(trusted_utc);
-    if (by <= off_at_most && by >= -even_within) return {};
+    const nlohmann::json kept = read_json_file(rules_.clock_file);
+    const std::string seen_utc = kept.at("seen_utc");
+    const auto off = wall - utc_moment(seen_utc);
+    even_ = std::chrono::seconds(kept.at("even_s").get<int64_t>());
+    if (off > max_off || off < -even_within) {
+      even_ = {};
+      reason_ = "the clock says " + ream::utc_text(wall) + " at the start, and the server last ran at " +
+                seen_utc + "; if it is wrong, set it; " + until_trusted;
+    } else if (even_ < trusted_after) {
+      reason_ = std::string("the clock was moved a short while ago; ") + until_trusted;
+    }
   } catch (const std::exception& damaged) {
-    return rules_.clock_file.string() + " cannot be read (" + damaged.what() + "); " + until_trusted;
+    even_ = {};
+    reason_ = rules_.clock_file.string() + " cannot be read (" + damaged.what() + "); " + until_trusted;
   }
-  return "the clock says " + ream::utc_text(wall) + " at the start and was right until " + trusted_utc +
-         "; unless the server was off for so long, set it; " + until_trusted;
 }
 
 void Retention::remember(UtcMoment wall) const {
   if (rules_.clock_file.empty()) return;
   try {
-    write_json_file(rules_.clock_file, {{"trusted_utc", ream::utc_text(wall)}});
+    const auto even = std::chrono::duration_cast<std::chrono::seconds>(std::min(even_, trusted_after));
+    write_json_file(rules_.clock_file, {{"seen_utc", ream::utc_text(wall)}, {"even_s", even.count()}});
   } catch (const Error& failure) {
-    log::warn(std::string("until when the clock was right cannot be kept: ") + failure.what());
+    log::warn(std::string("how the clock goes cannot be kept: ") + failure.what());
   }
 }
 
 bool Retention::clock_is_even() {
   const ClockReading now{rules_.now(), rules_.running()};
   if (!last_reading_) {
-    if (const std::string doubt = doubt_at_start(now.wall); !doubt.empty())
-      distrust_since(now.running, doubt);
+    begin_with(now.wall);
   } else {
-    const auto by =
-        std::chrono::nanoseconds(now.wall - last_reading_->wall) - (now.running - last_reading_->running);
-    if (std::chrono::abs(by) > even_within) distrust_since(now.running, moved_text(by));
+    const auto ran = now.running - last_reading_->running;
+    const auto by = std::chrono::nanoseconds(now.wall - last_reading_->wall) - ran;
+    even_ += ran;
+    if (std::chrono::abs(by) > even_within) {
+      even_ = {};
+      reason_ = moved_text(by);
+    }
   }
   last_reading_ = now;
-  if (doubted_at_ && now.running - *doubted_at_ >= trusted_after) doubted_at_.reset();
-  if (!doubted_at_) remember(now.wall);
-  return !doubted_at_;
+  remember(now.wall);
+  return even_ >= trusted_after;
 }
 
 bool Retention::may_go(size_t count, size_t of, const std::string& what) {

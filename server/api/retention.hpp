@@ -30,8 +30,7 @@ struct RetentionRules {
   WallClock now = machine_clock();
   /// Time that nobody sets, suspension included: what the wall clock is held against.
   std::function<std::chrono::nanoseconds()> running = time_since_boot;
-  /// Keeps until when the wall clock has been trusted, so that one that is wrong at a start is found out; empty:
-  /// a start trusts it.
+  /// Keeps how the wall clock went from run to run; empty: a start trusts it.
   std::filesystem::path clock_file = {};
   /// Most of the sessions, and of sessions and trash together, that may go in one look. Up to 20 always may.
   int max_at_once_percent = 50;
@@ -52,11 +51,11 @@ struct RetentionTools {
 /// begins and from time to time, on a thread that gives way to everything else. Sessions that are live, that
 /// somebody keeps for good, or that belong to a study that is not over stay.
 ///
-/// Time decides what goes, and a clock may be wrong. So nothing is deleted or erased because of its age while
-/// the wall clock has moved against the time the machine has been on by more than ten minutes within the last
-/// day, nor within a day of a start that the wall clock has more than two days after, or ten minutes before,
-/// the time until which it was trusted, nor when more than RetentionRules::max_at_once_percent would go at once: held() says so then, and
-/// the log. What is erased as nothing is to be kept is no matter of time.
+/// Time decides what goes, and a clock may be wrong. So nothing is deleted or erased because of its age until
+/// the server has run for a day, in all, in which the wall clock went evenly: within ten minutes of the time
+/// that the machine has been on, and between two runs neither back nor ahead by more than four days. Nor when
+/// more than RetentionRules::max_at_once_percent would go at once. held() says so then, and the log. What is
+/// erased as nothing is to be kept is no matter of time.
 class Retention {
  public:
   Retention(RetentionRules rules, RetentionTools tools);
@@ -75,8 +74,7 @@ class Retention {
  private:
   void look();
   bool clock_is_even();
-  void distrust_since(std::chrono::nanoseconds running, const std::string& why);
-  std::string doubt_at_start(UtcMoment wall) const;
+  void begin_with(UtcMoment wall);
   void remember(UtcMoment wall) const;
   /// Whether so many of so many may go; notes why not.
   bool may_go(size_t count, size_t of, const std::string& what);
@@ -95,8 +93,9 @@ class Retention {
   const RetentionRules rules_;
   const RetentionTools tools_;
   std::optional<ClockReading> last_reading_;
-  std::optional<std::chrono::nanoseconds> doubted_at_;  ///< by the time of running; none: the clock is trusted
-  std::string reason_;                                ///< of this look
+  /// For how long the clock has gone evenly, at least; trusted from a day on.
+  std::chrono::nanoseconds even_ = std::chrono::hours(24);
+  std::string reason_;  ///< of this look
   mutable std::mutex mutex_;
   std::string held_;
   PeriodicTask task_;

@@ -21,8 +21,8 @@ struct ScoreStores {
   session::Judge judge_by(const std::string& rubric, const std::string& benchmark = {}) const;
 };
 
-/// A rubric that a client sends: it asks only for what every session can say. Errors: invalid_input, with the
-/// place of an unknown metric.
+/// A rubric that a client sends: it asks only for what every session can say. Errors: invalid_input;
+/// RequestError 422 with the place of an unknown metric.
 score::Rubric requested_rubric(const nlohmann::json& body);
 
 }  // namespace ream::api

@@ -92,11 +92,11 @@ net::Response kept_or_made(const Services& services, const net::Request& request
     return net::file_response(request,
                               {folder / name, format.media_type, record.request.id + "." + format.ending()});
   const session::ExportOrder order{record.request};
-  return accepted(request.caller, work_in_folder(
-      services.jobs, kind, request.caller, record, folder,
-      [&engine = services.engine, &format, order, name](const fs::path& place, const Progress& progress) {
-        engine.write_export(format, order, place / name, progress);
-      }));
+  return accepted(request.caller, work_in_folder(services.jobs, kind, request.caller, record, folder,
+                                                 [&engine = services.engine, &format, order, name](
+                                                     const fs::path& place, const Progress& progress) {
+                                                   engine.write_export(format, order, place / name, progress);
+                                                 }));
 }
 
 int export_stride_of(const net::Request& request) {
@@ -151,12 +151,13 @@ net::Response export_session(const Services& services, const net::Request& reque
                            id,
                            std::make_shared<const session::SessionRequest>(record.request),
                            counted_for(request.caller)};
-  return accepted(request.caller, services.jobs.submit_file(
-      job, [&engine = services.engine, &format, order](const fs::path& folder, const Progress& progress) {
-        const std::string name = order.session.id + "." + format.ending();
-        engine.write_export(format, order, folder / name, progress);
-        return jobs::JobService::MadeFile{name, format.media_type};
-      }));
+  return accepted(request.caller,
+                  services.jobs.submit_file(job, [&engine = services.engine, &format, order](
+                                                     const fs::path& folder, const Progress& progress) {
+                    const std::string name = order.session.id + "." + format.ending();
+                    engine.write_export(format, order, folder / name, progress);
+                    return jobs::JobService::MadeFile{name, format.media_type};
+                  }));
 }
 
 }  // namespace

@@ -36,20 +36,20 @@ struct Plan {
   GuideKind guide = GuideKind::none;             ///< nipple needs a pilot hole
   std::optional<double> implant_radius_mm = {};  ///< of the component's back
   std::string implant_size = {};                 ///< as its maker names it; "": not chosen
-  /// What was aimed at (3D, science 2.1), kept so that scoring can compare; axis_direction decides.
+  /// What was aimed at (3D), kept so that scoring can compare; axis_direction decides.
   std::optional<double> target_version_rad = {}, target_inclination_rad = {};
   /// Taken in spite of a correction that reaming alone should not make (planning.hpp), and why.
   bool override_correction = false;
   std::string override_reason = {};
 };
 
-/// Glenoid coordinate system, world frame, each a unit vector; side-aware (see DESIGN 3 and science 2.1).
+/// Glenoid coordinate system, world frame, each a unit vector; side-aware.
 struct GlenoidFrame {
   Vec3 centre_mm = Vec3::Zero();
   Vec3 lateral = Vec3::UnitX(), superior = Vec3::UnitZ(), anterior = -Vec3::UnitY();
 };
 
-/// How HU became density (science 2.5); each law and number is kept with the case. Defaults are those of an
+/// How HU became density; each law and number is kept with the case. Defaults are those of an
 /// example phantom and of Schileo 2008.
 struct Calibration {
   double intercept_mg_cc = 1.3152, slope_mg_cc_per_hu = 0.6944;  ///< rho_QCT = intercept + slope HU

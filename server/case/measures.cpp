@@ -111,7 +111,7 @@ std::optional<ScapularFrame> frame_of(const Landmarks& l, Side side) {
 
 double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
-/// Angle at the middle of the line a-b from `from` to b, less a right angle (science 2.1: delta, gamma - 90).
+/// Angle at the middle of the line a-b from `from` to b, less a right angle (delta, gamma - 90).
 double tilt_at_middle(const Vec3& from, const Vec3& a, const Vec3& b) {
   const Vec3 middle = 0.5 * (a + b);
   check_apart(from, middle, "trigonum and the middle of the rim");

@@ -14,7 +14,7 @@ struct FaceAngles {
   double version_rad = 0, inclination_rad = 0;
 };
 
-/// Scapular coordinate system, world frame, each a unit vector (science 2.1): lateral from the root of the
+/// Scapular coordinate system, world frame, each a unit vector: lateral from the root of the
 /// spine to the glenoid centre, posterior across the plane of both and the inferior angle, superior in that
 /// plane. Posterior is the patient's (LPS +y), whatever the order of the points.
 struct ScapularFrame {
@@ -44,7 +44,7 @@ struct Biconcavity {
 /// What landmarks say about a glenoid. Angles rad; retroversion negative, superior inclination positive. A
 /// measure whose landmarks are missing is empty.
 ///
-/// 3D (science 2.1): against the plane of trigonum, inferior angle and glenoid centre; see
+/// 3D: against the plane of trigonum, inferior angle and glenoid centre; see
 /// ScapularFrame. Unchanged by moving or scaling all points, and by turning them as long as posterior
 /// stays LPS +y.
 ///
@@ -60,7 +60,7 @@ struct Measures {
   std::optional<double> version_friedman_rad, inclination_friedman_rad;
   /// Share of the humeral head's diameter that lies posterior of the scapular plane: 50 + 50 d / r, where d
   /// is how far its centre lies posterior of that plane; 0 to 100, 50 is centred. This is the index a / D of
-  /// Walch and the one of science 2.1's classes; it grows with retroversion even of a head centred on its
+  /// Walch and the one of his later classes; it grows with retroversion even of a head centred on its
   /// face.
   std::optional<double> subluxation_percent;
   /// The same against the plane through the glenoid centre across the anterior-posterior rim line: how far

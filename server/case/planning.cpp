@@ -18,7 +18,7 @@ using nlohmann::json;
 namespace {
 
 // Retroversion that remains: within 7 degrees of neutral is what good planning achieves, from 15 on the
-// component loosens (science 2.2).
+// component loosens.
 constexpr double retroversion_noted_deg = 7.0, retroversion_bad_deg = 15.0;
 constexpr double angle_slack_deg = 1e-9;
 
@@ -161,7 +161,7 @@ constexpr double max_proposed_length_mm = 100.0;
 /// Inclination beyond this is worth correcting; within it, a proposal leaves it as it is.
 constexpr double kept_inclination_deg = 10.0;
 
-/// A reamer of this radius is in common use (science 2.2, 2.4).
+/// A reamer of this radius is in common use.
 constexpr double default_radius_mm = 40.0;
 
 /// Thickness of the wire on which cannulated reamers run, and how far it is drilled in.

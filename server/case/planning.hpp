@@ -11,13 +11,13 @@
 namespace ream::case_ {
 
 /// Beyond this, reaming alone corrects badly; from the second on, components perforate the vault (Clavert
-/// 2007: at 15 degrees and more 5 of 5 pegged components; science 2.2).
+/// 2007: at 15 degrees and more 5 of 5 pegged components).
 inline constexpr double warned_correction_deg = 10.0, refused_correction_deg = 15.0;
 
 /// What a plan would do to a glenoid. Angles rad; empty where the landmarks for them are missing.
 struct PlanAssessment {
   std::optional<double> correction_rad;  ///< between the native face normal and the planned axis
-  std::optional<double> version_before_rad, inclination_before_rad;  ///< 3D (science 2.1)
+  std::optional<double> version_before_rad, inclination_before_rad;  ///< 3D
   std::optional<double> version_after_rad, inclination_after_rad;    ///< of a face across the axis
   std::optional<double> vault_depth_mm;  ///< along the axis from the entry to the far cortex; needs the bone
   std::vector<std::string> warnings;     ///< one line each
@@ -59,7 +59,7 @@ PlanTargets plan_targets_from_json(const nlohmann::json& value, const std::strin
 /// First bone met when moving along a direction through a point, world mm; empty when there is none.
 using SurfaceAlong = std::function<std::optional<Vec3>(const Vec3& point_mm, const Vec3& direction)>;
 
-/// A plan whose axis has the requested version and inclination (3D, science 2.1) and goes through the glenoid
+/// A plan whose axis has the requested version and inclination (3D) and goes through the glenoid
 /// centre; its entry is where that axis meets the surface (the centre itself where `surface` is empty).
 /// Errors: invalid_input names landmarks that are missing or contradict each other, or an axis that misses
 /// the bone; those of make_tool for an unknown reamer.

@@ -141,10 +141,10 @@ void AtomicFolder::commit() {
   // The old folder takes the temporary name in the same moment, so that there is always one.
   const bool exchanged =
       ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, final_.c_str(), RENAME_EXCHANGE) == 0;
+  fs::path old = final_;
+  old += "." + std::to_string(::getpid()) + ".old.tmp";
+  const bool had_old = !exchanged && fs::exists(final_, ignored);
   if (!exchanged) {
-    fs::path old = final_;
-    old += "." + std::to_string(::getpid()) + ".old.tmp";
-    const bool had_old = fs::exists(final_, ignored);
     if (had_old) {
       fs::remove_all(old, ignored);
       fs::rename(final_, old, failed);
@@ -153,7 +153,6 @@ void AtomicFolder::commit() {
     fs::rename(temporary_, final_, failed);
     if (failed && had_old) fs::rename(old, final_, ignored);
     check(failed);
-    if (had_old) fs::remove_all(old, ignored);
   }
   committed_ = true;
   try {
@@ -162,9 +161,10 @@ void AtomicFolder::commit() {
     // What cannot be promised to last is taken back.
     const unsigned back = exchanged ? RENAME_EXCHANGE : RENAME_NOREPLACE;
     committed_ = ::renameat2(AT_FDCWD, final_.c_str(), AT_FDCWD, temporary_.c_str(), back) != 0;
+    if (!committed_ && had_old) fs::rename(old, final_, ignored);
     throw;
   }
-  if (exchanged) fs::remove_all(temporary_, ignored);
+  fs::remove_all(exchanged ? temporary_ : old, ignored);
 }
 
 }  // namespace ream

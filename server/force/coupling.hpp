@@ -36,7 +36,7 @@ struct CouplingStep {
   bool yielded = false;   ///< the spring was stretched beyond its limit
 };
 
-/// One tick of the Maxwell element of DESIGN 3: the spring K between handle and tool in series with the
+/// One tick of the Maxwell element: the spring K between handle and tool in series with the
 /// bone's feed law. Solves (B + K T) twist = K delta implicitly (backward Euler, passive for any B), where
 /// `delta` is handle minus tool (mm, rad, tool frame). Never tensile, neither along the mean normal nor,
 /// where bone lies ahead, along the axis: the part of delta that leaves the bone is followed without lag.

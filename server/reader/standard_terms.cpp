@@ -52,7 +52,11 @@ bool means_hu(const std::string& value_type) {
 }
 
 std::string known_spelling_of_hu(const std::string& value_type) {
-  return is_spelling(letters_of(value_type)) ? value_type : unknown;
+  constexpr std::string_view harmless = " []'().-_";
+  const bool plain = std::all_of(value_type.begin(), value_type.end(), [&](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || harmless.find(c) != harmless.npos;
+  });
+  return plain && is_spelling(letters_of(value_type)) ? value_type : unknown;
 }
 
 }  // namespace ream::reader

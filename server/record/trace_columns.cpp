@@ -37,7 +37,7 @@ constexpr std::array columns = {
     TraceColumn{"hand_force_y_n", "N", "Force that the device was sent, y in the world frame."},
     TraceColumn{"hand_force_z_n", "N", "Force that the device was sent, z in the world frame."},
     TraceColumn{"torque_n_mm", "N mm",
-                "Simulated moment of the contact about the reamer's apex, its magnitude."},
+                "Simulated moment of the spring on the reamer about its apex, its magnitude."},
     TraceColumn{"spindle_torque_n_mm", "N mm", "Simulated torque that turns the spindle against the bone."},
     TraceColumn{"guide_force_n", "N", "Simulated force that the guide or the pilot hole takes."},
     TraceColumn{"vibration_g", "g", "Acceleration of the reamer by cutting, beside what contact does."},
@@ -62,7 +62,7 @@ constexpr std::array columns = {
     TraceColumn{"stalled", "", "1 while the drive cannot turn the reamer."},
     TraceColumn{"irrigating", "", "1 while the bone is irrigated."},
     TraceColumn{"surface_temperature_c", "°C",
-                "Temperature of the bone under the reamer; 0 where it is not simulated."},
+                "Temperature of the bone under the reamer; 35 where nothing has warmed it."},
     TraceColumn{
         "tool_depth_mm", "mm",
         "How far the reamer's apex is past the planned entry along the planned axis, with the bone."}};

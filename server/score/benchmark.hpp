@@ -19,7 +19,7 @@ struct BenchmarkLine {
   std::vector<std::string> dropped;  ///< sessions whose |z| in this metric is over dropped_from_z
 };
 
-/// Proficiency-based progression (science 2.3): the mean of experts, metric by metric, is what a trainee has
+/// Proficiency-based progression: the mean of experts, metric by metric, is what a trainee has
 /// to reach. A file of proto/benchmark.schema.json.
 struct Benchmark {
   std::string name;

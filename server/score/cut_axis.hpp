@@ -17,7 +17,7 @@ struct CutLine {
   Vec3 deepest_apex_mm() const;
 };
 
-/// Achieved axis (science 2.2): a sphere has no axis of its own, so it is the tool's, as a mean weighted by
+/// Achieved axis: a sphere has no axis of its own, so it is the tool's, as a mean weighted by
 /// removed volume over the last 0.5 mm of advance. Advance is counted along z of the plan frame, and what was
 /// removed anywhere within 0.5 mm of the deepest apex counts, whenever it was (in steps of 0.01 mm).
 class CutAxis {

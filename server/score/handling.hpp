@@ -17,7 +17,7 @@ inline constexpr double reached_share = 0.1;
 /// Apparent stiffness is measured from the thrust at which lips begin to cut to 90 % of the experiments' 52
 /// N.
 inline constexpr double stiffness_from_n = 1.0, stiffness_to_n = 0.9 * 52.0;
-/// Thrust beyond this is excess: 1.5 times the experiments' 52 N (science 2.2).
+/// Thrust beyond this is excess: 1.5 times the experiments' 52 N.
 inline constexpr double excess_from_n = 78.0;
 
 /// Thrust along the tool's axis, simulated newtons: mean and deviation over pressed cutting, peak and excess
@@ -87,7 +87,7 @@ class PlateStop {
   AdvanceUntilRelease beyond_;
 };
 
-/// Counts episodes of contact with over 5 N; gaps of up to half a second do not part them (science 2.2).
+/// Counts episodes of contact with over 5 N; gaps of up to half a second do not part them.
 class ContactPasses {
  public:
   /// Once a tick.

@@ -10,7 +10,7 @@
 namespace ream::score {
 
 /// What a trainee's failures are tested against. Rates between 0 and 1; the defaults suit a training session,
-/// 5/15 % and 10/20 % suit a programme (science 2.3).
+/// 5/15 % and 10/20 % suit a programme.
 struct CusumParameters {
   double acceptable_rate = 0.20;    ///< p0: failures of somebody who is proficient
   double unacceptable_rate = 0.40;  ///< p1: failures of somebody who is not

@@ -10,7 +10,7 @@ namespace ream::score {
 
 namespace {
 
-constexpr int64_t parting_ticks = 500;  ///< off the bone; less parts no contacts (science 2.2)
+constexpr int64_t parting_ticks = 500;  ///< off the bone; less parts no contacts
 
 }  // namespace
 

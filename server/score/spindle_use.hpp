@@ -6,7 +6,7 @@
 
 namespace ream::score {
 
-/// Under this thrust a hand no longer presses (science 2.2).
+/// Under this thrust a hand no longer presses.
 inline constexpr double pressing_n = 5.0;
 /// Why what is averaged over cutting is missing.
 inline constexpr const char* never_cut = "the reamer never cut with 5 N";

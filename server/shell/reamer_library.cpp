@@ -35,8 +35,8 @@ std::vector<LibraryReamer> made_built_in() {
       {"thesis", thesis_tool, 32.0, 32.0, Nipple{}, false, "Bench case of the thesis, section 5.4.2"},
       {"thesis-appendix-a", "ellipse 18.25,9", 36.5, 18.25 * 18.25 / 9.0, std::nullopt, false,
        "Ellipsoid of the thesis, appendix A; no nipple"}};
-  // Radii of the backs of anatomic components in use; diameters between the width and the height of a glenoid
-  // (science 2.4), growing with the radius as sizes do. No maker's product is meant.
+  // Radii of the backs of anatomic components in use; diameters between the width and the height of a
+  // glenoid, growing with the radius as sizes do. No maker's product is meant.
   constexpr int sizes[][2] = {{30, 28}, {35, 30}, {40, 32}, {45, 34}, {50, 36}, {55, 36}, {60, 38}};
   for (const auto& [radius, diameter] : sizes) all.push_back(convex(radius, diameter, false));
   for (const auto& [radius, diameter] : sizes) all.push_back(convex(radius, diameter, true));

@@ -67,7 +67,7 @@ void free_along_axis(force::Mat6& m) {
   for (size_t i = 0; i < 6; ++i) m[6 * 2 + i] = m[6 * i + 2] = 0.0;
 }
 
-/// The 6x6 resistance of DESIGN 3 from the contact sums: scaled so that full axial contact has the feed
+/// The 6x6 resistance from the contact sums: scaled so that full axial contact has the feed
 /// model's resistance, whatever the engaged area. A standing spindle (or thrust too small to cut) makes
 /// cutting contact block like guiding contact.
 force::Resistance contact_resistance(const Model& model, const collide::ContactSums& sums,

@@ -85,7 +85,7 @@ session::ExportColumn answer_column(const QuestionnaireItem& item) {
   switch (item.kind) {
     case QuestionnaireItem::Kind::likert:
       words += " 1: " + item.low + ", " + std::to_string(item.points) + ": " + item.high +
-               (item.cannot_judge ? "; empty (null in JSON): cannot judge" : "");
+               (item.cannot_judge ? "; empty (null in JSON): cannot say" : "");
       break;
     case QuestionnaireItem::Kind::choice:
       for (const auto& option : item.options) words += " " + option.id + ": " + option.words + ".";

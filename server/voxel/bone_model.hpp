@@ -70,7 +70,7 @@ inline constexpr int max_density_code = 250;
 inline constexpr uint8_t cartilage_code = 255;
 /// Density given to cartilage where a number is needed (wet hyaline cartilage, about 1.1 g/cc).
 inline constexpr double cartilage_density_g_cc = 1.1;
-/// Where the thesis' two feed laws cross (science: eqs 5.1 and 5.2 give the same feed there).
+/// Where the thesis' two feed laws cross (eqs 5.1 and 5.2 give the same feed there).
 inline constexpr double default_cortical_threshold_g_cc = 1.069;
 
 uint8_t density_code(double density_g_cc);

@@ -67,7 +67,7 @@ class GlenoidFormulas {
   }
   Vec3 sphere_centre() const { return g_.mirrored(sphere_); }
   const AnalyticGlenoid& glenoid() const { return g_; }
-  /// Version and inclination (science 2.1) of a face across an axis into the bone, degrees.
+  /// Version and inclination of a face across an axis into the bone, degrees.
   std::pair<double, double> angles_deg(const Vec3& axis_world) const {
     const Vec3 n = -g_.mirrored(axis_world);
     const double turn = radians_from_degrees(g_.shoulder.plane_deg);

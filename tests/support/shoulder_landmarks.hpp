@@ -8,7 +8,7 @@
 
 namespace ream::test {
 
-/// Landmarks of a shoulder whose face has exactly these angles (degrees; science 2.1), by rotations written
+/// Landmarks of a shoulder whose face has exactly these angles (degrees), by rotations written
 /// down here: a right one, whose mirror image in x = 0 a left one is.
 struct ShoulderShape {
   case_::Side side = case_::Side::right;

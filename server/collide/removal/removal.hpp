@@ -12,7 +12,7 @@
 namespace ream::collide {
 
 /// Coverage that a voxel keeps at most, from its level: 255 where the voxel's centre is half a voxel outside
-/// the swept cutting body, 0 half a voxel inside, linear between (DESIGN 3). The level goes on beyond both.
+/// the swept cutting body, 0 half a voxel inside, linear between. The level goes on beyond both.
 inline uint8_t kept_coverage(float level) noexcept {
   const float low = level < 0.0f ? 0.0f : level;
   return static_cast<uint8_t>(static_cast<int>(low > 255.0f ? 255.0f : low));

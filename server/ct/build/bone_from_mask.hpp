@@ -8,7 +8,7 @@
 
 namespace ream::ct {
 
-/// Density chain of science 2.5 with the laws of the case: rho_QCT = intercept + slope HU; rho_ash =
+/// Density chain with the laws of the case: rho_QCT = intercept + slope HU; rho_ash =
 /// intercept + slope rho_QCT; apparent density = rho_ash / ratio, all g/cc. Negative results become 0.
 double apparent_density_g_cc(double hu, const case_::Calibration& calibration);
 

@@ -4,7 +4,7 @@
 namespace ream::ct {
 
 /// A layer of cartilage that CT does not show. Means of 1.9 to 2.2 mm are reported for glenoids, more below
-/// and less in the middle (science 2.4).
+/// and less in the middle.
 struct CartilageSettings {
   double thickness_mm = 2.0;  ///< along the face's normal, 0 (none) to 6
   double rim_taper_mm = 1.5;  ///< it thins to nothing over this width at the rim, 0 to 10

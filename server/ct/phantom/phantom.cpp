@@ -71,7 +71,7 @@ double noise(uint64_t seed, uint64_t index) {
 /// Share of a voxel on the inner side of a border at signed distance `d` (negative inside).
 double inside_share(double d, double voxel_mm) { return std::clamp(0.5 - d / voxel_mm, 0.0, 1.0); }
 
-/// Apparent density of the trabecular bone: densest posterior and near the face (science 2.4).
+/// Apparent density of the trabecular bone: densest posterior and near the face.
 double cancellous_g_cc(double posterior_mm, double depth_mm) {
   return std::clamp(0.56 + 0.010 * posterior_mm - 0.004 * std::max(0.0, depth_mm), 0.40, 0.70);
 }

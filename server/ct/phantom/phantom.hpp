@@ -13,7 +13,7 @@
 
 namespace ream::ct {
 
-/// Kinds of glenoid (Walch where they are in his classes; science 2.1, 2.4):
+/// Kinds of glenoid (Walch where they are in his classes):
 /// - a1: little worn, concentric;
 /// - a2: worn in the centre: the face lies 4 mm medial and is nearly as curved as the head;
 /// - b1: as a1, but the head has slid back and the joint space is narrow there;
@@ -38,8 +38,8 @@ std::vector<std::string> phantom_type_texts();
 /// Of the humerus.
 inline constexpr double mean_head_radius_mm = 24.0;
 
-/// A parametric shoulder. Lengths mm, angles rad (retroversion negative, superior inclination positive;
-/// science 2.1). Typical values from science 2.4.
+/// A parametric shoulder. Lengths mm, angles rad: retroversion negative, superior inclination
+/// positive.
 struct PhantomParams {
   case_::Side side = case_::Side::right;
   PhantomType type = PhantomType::a1;
@@ -68,7 +68,7 @@ struct PhantomParams {
 struct GroundTruth {
   case_::Side side = case_::Side::right;
   PhantomType type = PhantomType::a1;
-  /// Of the face as it is (3D, science 2.1); of a biconcave one along its intermediate line.
+  /// Of the face as it is (3D); of a biconcave one along its intermediate line.
   double version_rad = 0, inclination_rad = 0;
   /// As it was asked for, before the wear of a biconcave or a B3 glenoid. Of a biconcave one: along the
   /// paleoglenoid's chord (anterior rim to ridge); along the neoglenoid's.

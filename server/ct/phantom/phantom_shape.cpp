@@ -23,7 +23,7 @@ constexpr double least_gap_mm = 2.0;  // between the humerus and acromion or cor
 constexpr double rim_rounding_mm = 0.8;
 constexpr double shaft_radius_mm = 12.0;
 
-// Wear: how far the face lies medial (B3: 14 +- 4 mm at its worst place, science 2.1), and by how much its
+// Wear: how far the face lies medial (B3: 14 +- 4 mm at its worst place), and by how much its
 // radius exceeds that of head and joint space.
 constexpr double central_wear_mm = 4.0, posterior_wear_mm = 9.0, worn_radius_excess_mm = 1.0;
 double wear_mm_of(PhantomType type) {
@@ -31,7 +31,7 @@ double wear_mm_of(PhantomType type) {
 }
 
 /// By how much a face is turned against what was asked for: as it grew, and by wear (B3 24 +- 7 degrees of
-/// retroversion, C1 more than 25, D anteverted; science 2.1).
+/// retroversion, C1 more than 25, D anteverted).
 struct Turned {
   double native_rad = 0, worn_rad = 0;
 };

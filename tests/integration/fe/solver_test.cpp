@@ -74,7 +74,7 @@ MeshOptions elastic(double poisson, int axis = 2) {
 TEST_F(Solver, ACubeHasTheModulusAndThePoissonsRatioItWasGiven) {
   REAM_SKIP_WITHOUT_CCX();
   for (int axis = 0; axis < 3; ++axis) {
-    // science: 2 x 2 x 2 mm of E = 1000 under 1 % gives 40 N and 0.006 mm sideways.
+    // By hand: 2 x 2 x 2 mm of E = 1000 under 1 % gives 40 N and 0.006 mm sideways.
     const Reactions r = solved(model_of(
                                    {2, 2, 2}, [](int, int, int) { return 1000; }, 1.0),
                                elastic(0.3, axis));

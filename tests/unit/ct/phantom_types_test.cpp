@@ -173,7 +173,7 @@ struct Class {
   double least_version_deg, most_version_deg, least_subluxation_percent, most_subluxation_percent;
 };
 
-/// Bercik 2016 (science 2.1); of subluxation behind the scapular axis, 50 is centred.
+/// Bercik 2016; of subluxation behind the scapular axis, 50 is centred.
 TEST(PhantomTypes, MeasureAsWalchsClassesAreDefined) {
   const Class classes[] = {{PhantomType::a1, -10, 5, 45, 55},
                            {PhantomType::b1, -10, 5, 55, 80},

@@ -115,7 +115,8 @@ TEST(DicomVariants, HounsfieldUnitsByOtherNamesAreHuWithARemark) {
   // What is no word of the standard's may be of a person, however short.
   for (const char* name : {"hounds", "HUE", "DOE^JANE", "Jane Doe, 12 March 1956"})
     EXPECT_TRUE(mentions(remarks_on(name), "the slices hold something else, not HU")) << name;
-  EXPECT_TRUE(mentions(remarks_on("Hounf DOE^JANE"), "their values 'something else'"));
+  for (const char* name : {"Hounf DOE^JANE", "HU 19580312", "hu \xE4"})
+    EXPECT_TRUE(mentions(remarks_on(name), "their values 'something else'")) << name;
   EXPECT_TRUE(mentions(remarks_on("Hounsfield of Jane Doe"), "their values 'something else'"));
 }
 
