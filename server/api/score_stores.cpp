@@ -26,7 +26,8 @@ score::Rubric requested_rubric(const nlohmann::json& body) {
   score::Rubric rubric = score::rubric_from_json(body, "the request body");
   for (size_t i = 0; i < rubric.criteria.size(); ++i)
     if (const std::string& metric = rubric.criteria[i].metric; !score::find_metric(metric))
-      throw net::RequestError(422, "there is no metric '" + metric + "'; choose one of those that scores have",
+      throw net::RequestError(422,
+                              "there is no metric '" + metric + "'; choose one of those that scores have",
                               {{"#/criteria/" + std::to_string(i) + "/metric", "is no metric"}});
   return rubric;
 }
