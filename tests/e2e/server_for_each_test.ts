@@ -1,5 +1,9 @@
 // What the tests of the page share: a server of their own, and pages in which nothing may go wrong unseen.
-import { expect, type Page, test } from '@playwright/test';
+import { mkdtempSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+
+import { type Browser, type BrowserContext, expect, type Page, test } from '@playwright/test';
 
 import type { DebugReadout } from '../../web/src/debug_readout';
 import { followRequests } from './settled';
@@ -9,25 +13,47 @@ class Surroundings {
   /** Of the test that runs. */
   server!: ServerProcess;
   problems: string[] = [];
+  private contexts: BrowserContext[] = [];
 
   /** An error in this page fails the test; the test's first page is watched already. */
   watchForErrors(page: Page): void {
     followRequests(page);
     page.on('pageerror', (error) => this.problems.push(error.message));
   }
+
+  /** A window of somebody else, who logs in for themself; it is closed after the test. */
+  async windowOf(browser: Browser, viewport: { width: number; height: number }): Promise<Page> {
+    const context = await browser.newContext({ viewport });
+    this.contexts.push(context);
+    const page = await context.newPage();
+    this.watchForErrors(page);
+    await page.goto(this.server.url);
+    return page;
+  }
+
+  /** What draws on would slow the next test down. */
+  async closeWindows(): Promise<void> {
+    for (const context of this.contexts.splice(0)) await context.close();
+  }
+}
+
+interface Beginning {
+  /** Without even the demo, which the server then makes itself. */
+  emptyFolder?: boolean;
 }
 
 /** To be called once in a file of tests. Without users everybody may do everything. */
-export function serverForEachTest(users: readonly TestUser[] = []): Surroundings {
+export function serverForEachTest(users: readonly TestUser[] = [], { emptyFolder }: Beginning = {}): Surroundings {
   const here = new Surroundings();
   test.beforeEach(async ({ page }) => {
     here.problems = [];
     here.watchForErrors(page);
-    here.server = new ServerProcess();
+    here.server = new ServerProcess(emptyFolder ? mkdtempSync(join(tmpdir(), 'ream-e2e-')) : undefined);
     for (const user of users) here.server.addUser(user);
     await here.server.start();
   });
   test.afterEach(async () => {
+    await here.closeWindows();
     await here.server.dispose();
     expect(here.problems).toEqual([]);
   });
