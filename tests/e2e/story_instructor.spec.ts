@@ -24,7 +24,7 @@ async function addByTable(page: Page, table: string): Promise<Map<string, string
   await page.getByLabel('Users as CSV').fill(table);
   await page.getByTestId('bulk-create').click();
   // Passwords are hashed slowly on purpose.
-  await expect(page.getByRole('button', { name: 'Copy all' })).toBeVisible({ timeout: 60_000 });
+  await expect(page.getByTestId('bulk-copy')).toBeVisible({ timeout: 60_000 });
   const lines = (await page.getByTestId('bulk-passwords').inputValue()).trim().split(/\r?\n/);
   return new Map(lines.slice(1).map((line) => line.split(',') as [string, string]));
 }

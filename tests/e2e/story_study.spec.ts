@@ -32,7 +32,9 @@ async function writeQuestions(page: Page): Promise<void> {
 async function tableOf(page: Page, button: string): Promise<string[]> {
   const download = page.waitForEvent('download');
   await page.getByRole('button', { name: button }).click();
-  return readFileSync(await (await download).path(), 'utf8').trim().split('\r\n');
+  return readFileSync(await (await download).path(), 'utf8')
+    .trim()
+    .split('\r\n');
 }
 
 for (const [width, height] of [

@@ -30,11 +30,13 @@ export function StudyPage({ api, id, train }: Parts) {
   const may = useIdentity().may.value;
   const studies = useMemo(() => new Remote(() => api.study(id)), [api, id]);
   const participants = useMemo(() => new Remote(() => api.participants(id)), [api, id]);
-  useEffect(() => {
-    void studies.read();
-    if (may.teach) void participants.read();
-  }, [studies, participants, may.teach]);
+  useEffect(() => void studies.read(), [studies]);
   const study = studies.value.value;
+  // Closing, reopening and unblinding change what may be seen of participants.
+  const { state, blinded } = study ?? { state: null, blinded: null };
+  useEffect(() => {
+    if (may.teach && state !== null) void participants.read();
+  }, [participants, may.teach, state, blinded]);
   useShownName(study?.name ?? '');
   const empty = participants.value.value?.length === 0;
   const listed = may.teach ? (participants.value.value ?? []) : [];

@@ -22,10 +22,11 @@ export function CopyButton({ text, label, words, testId }: Parts) {
     );
   };
   const { copy: usual, copied: done, notCopied } = pageText;
-  const before = words ?? usual;
+  const said = copied.value === null ? (words ?? usual) : copied.value ? done : notCopied;
+  // What is a status names no button.
   return (
-    <Button testId={testId} label={copied.value === null ? label : undefined} onClick={() => void copy()}>
-      <span role="status">{copied.value === null ? before : copied.value ? done : notCopied}</span>
+    <Button testId={testId} label={copied.value === null ? (label ?? said) : said} onClick={() => void copy()}>
+      <span role="status">{said}</span>
     </Button>
   );
 }

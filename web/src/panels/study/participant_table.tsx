@@ -104,7 +104,7 @@ function Row({
           studyText.experienceNames[one.experience]
         )}
       </td>
-      <td class="number">{one.procedures_done ?? ''}</td>
+      <td class="number">{unknown ? <span class="soft">{studyText.hidden}</span> : (one.procedures_done ?? '')}</td>
       {study.design && (
         <td>
           {one.arm === null ? (
