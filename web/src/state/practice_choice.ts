@@ -64,12 +64,12 @@ export class PracticeChoice {
 
   /** Reads the reamer of the chosen case, whenever that is another one; until the result is called. */
   followReamer(): () => void {
+    // A case that the list does not have yet cannot be read either.
+    const isThere = computed(() => this.cases.value?.some(({ id }) => id === this.caseId.value) ?? false);
     return effect(() => {
       const id = this.caseId.value;
-      // A case that the list does not have yet cannot be read either.
-      const there = this.cases.value?.some((one) => one.id === id) ?? false;
       this.reamer.value = null;
-      if (there) void this.readReamer(id);
+      if (isThere.value) void this.readReamer(id);
     });
   }
 

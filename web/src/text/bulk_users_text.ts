@@ -1,7 +1,7 @@
 /** Texts of adding many users at once; loaded with the page of users. */
 export const bulkUsersText = {
   title: 'Add many users',
-  hint: 'Paste a table or choose a CSV file. Columns: name, role, and if you like display name and password.',
+  hint: 'Paste a table or choose a CSV file. Columns: name and role. Optional: display name, password.',
   generatedHint: 'Users without a password get a generated one. You can copy these once.',
   example: 'name,role,display name\nanna,trainee,Anna Example\nben,instructor,Ben Example',
   table: 'Users as CSV',
@@ -17,14 +17,16 @@ export const bulkUsersText = {
   failed: (reason: string) => `Not created: ${reason}`,
 
   noName: 'The login name is missing.',
-  badName: 'A login name has letters, digits and . _ @ - only, at most 64.',
+  badName: 'A login name begins with a letter or digit. It has letters, digits and . _ @ - only, at most 64.',
   twice: (line: number) => `The same name is in line ${line}.`,
   noRole: 'The role is missing.',
   badRole: 'The role must be operator, instructor or trainee.',
   shortPassword: 'The password needs at least 10 characters.',
   longDisplayName: 'The display name has more than 100 characters.',
   quotes: 'A quotation mark is missing or misplaced.',
-  noColumn: 'The first line needs the columns name and role.',
+  noColumn: 'The first line must name the columns: name and role at least.',
+  unknownColumn: (name: string) => `There is no column “${name}”. Columns: name, role, display name, password.`,
+  notUtf8: 'The file has characters that cannot be read. Save it as UTF-8.',
 
   create: (count: number) => (count === 1 ? 'Create 1 user' : `Create ${count} users`),
   tryAgain: (count: number) => (count === 1 ? 'Try 1 user again' : `Try ${count} users again`),

@@ -51,8 +51,12 @@ export function BulkUsersPanel({ api, users }: { api: AccessApi; users: Remote<U
 }
 
 function TableText({ bulk }: { bulk: BulkUsers }) {
-  const read = async (file: File | undefined) => {
-    if (file !== undefined) bulk.write(await file.text());
+  const read = async (input: HTMLInputElement) => {
+    const file = input.files?.[0];
+    // Empty again, so that the same file can be chosen once more.
+    const text = await file?.text().catch(() => '\uFFFD');
+    input.value = '';
+    if (text !== undefined) bulk.write(text);
   };
   return (
     <div class="content-form">
@@ -63,7 +67,7 @@ function TableText({ bulk }: { bulk: BulkUsers }) {
           accept=".csv,.tsv,.txt,text/csv"
           data-testid="bulk-file"
           disabled={bulk.busy.value}
-          onChange={(event) => void read(event.currentTarget.files?.[0])}
+          onChange={(event) => void read(event.currentTarget)}
         />
       </label>
       <label class="wide">

@@ -29,6 +29,8 @@ export class BulkUsers {
   readonly created = computed(() => [...this.outcomes.value.values()].filter((one) => one?.created === true).length);
   readonly failed = computed(() => [...this.outcomes.value.values()].filter((one) => one?.created === false).length);
 
+  private readonly passwords = new Map<string, string>();
+
   constructor(private readonly password: () => string = () => generatedPassword()) {}
 
   /** Another table; what came of the one before is forgotten, but not its passwords. */
@@ -52,10 +54,17 @@ export class BulkUsers {
     this.busy.value = false;
   }
 
+  /** The same when a line is tried again: the user may exist, with the answer lost. */
+  private passwordFor(name: string): string {
+    const kept = this.passwords.get(name) ?? this.password();
+    this.passwords.set(name, kept);
+    return kept;
+  }
+
   private async createOne(row: UserRow, add: Add): Promise<void> {
     if (!isRole(row.role)) return;
     const { name, role, displayName } = row;
-    const password = row.password === '' ? this.password() : row.password;
+    const password = row.password === '' ? this.passwordFor(name) : row.password;
     let outcome: Outcome = { created: true };
     try {
       await add({ name, role, password, ...(displayName === '' ? {} : { display_name: displayName }) });

@@ -34,8 +34,6 @@ const columnNames: Readonly<Record<string, Column>> = {
   password: 'password',
   'display name': 'displayName',
 };
-/** Of a table without names of columns. */
-const usualColumns: readonly Column[] = ['name', 'role', 'password'];
 const minPassword = 10;
 
 /** Reads what was pasted or is in a file, with commas, semicolons or tabs, and checks every line. */
@@ -46,11 +44,12 @@ export function checkUsers(text: string, taken: readonly string[]): UserTableChe
   const filled = lines.filter(({ cells }) => cells.some((cell) => cell !== ''));
   const [first] = filled;
   if (first === undefined) return { rows: [], fault: null };
-  const named = columnsOf(first.cells);
-  if (named !== null && !(named.includes('name') && named.includes('role')))
-    return { rows: [], fault: bulkUsersText.noColumn };
-  const columns = named ?? usualColumns;
-  const rows = (named === null ? filled : filled.slice(1)).map(({ line, cells }) => {
+  const columns = columnsOf(first.cells);
+  if (!(columns.includes('name') && columns.includes('role'))) return { rows: [], fault: bulkUsersText.noColumn };
+  const unknown = first.cells.find((_, i) => columns[i] === null);
+  if (unknown !== undefined) return { rows: [], fault: bulkUsersText.unknownColumn(unknown) };
+  if (text.includes('\uFFFD')) return { rows: [], fault: bulkUsersText.notUtf8 };
+  const rows = filled.slice(1).map(({ line, cells }) => {
     const cell = (column: Column) => cells[columns.indexOf(column)] ?? '';
     const row = {
       line,
@@ -64,16 +63,15 @@ export function checkUsers(text: string, taken: readonly string[]): UserTableChe
   return { rows: rows.map((row, i) => ({ ...row, fault: row.fault ?? faultOf(row, rows.slice(0, i)) })), fault: null };
 }
 
-/** Null where the line is not one of names of columns. */
-function columnsOf(cells: readonly string[]): (Column | null)[] | null {
-  const columns = cells.map((cell) => columnNames[cell.toLowerCase().replace(/[_-]/g, ' ')] ?? null);
-  return columns.some((column) => column === 'name' || column === 'role') ? columns : null;
+/** By the first line; null for what is no name of a column. */
+function columnsOf(cells: readonly string[]): (Column | null)[] {
+  return cells.map((cell) => columnNames[cell.toLowerCase().replace(/[_-]/g, ' ')] ?? null);
 }
 
 function faultOf({ name, displayName, role, password }: UserRow, before: readonly UserRow[]): string | null {
   const same = before.find((row) => row.name === name);
   if (name === '') return bulkUsersText.noName;
-  if (!/^[a-z0-9._@-]{1,64}$/.test(name)) return bulkUsersText.badName;
+  if (!/^[a-z0-9][a-z0-9._@-]{0,63}$/.test(name)) return bulkUsersText.badName;
   if (same !== undefined) return bulkUsersText.twice(same.line);
   if (role === '') return bulkUsersText.noRole;
   if (!isRole(role)) return bulkUsersText.badRole;

@@ -26,10 +26,10 @@ export class RubricPreview {
     return effect(() => {
       const [session, wanted] = [this.session.value, rubric()];
       this.stale.value = true;
-      if (session === '') {
-        this.score.value = null;
-        return undefined;
-      }
+      // What was said of another session is not left beside this one's name.
+      if (this.score.peek()?.session !== session) this.score.value = null;
+      this.problem.value = null;
+      if (session === '') return undefined;
       if (wanted === null) return undefined;
       const giveUp = new AbortController();
       const timer = setTimeout(() => void this.ask(session, wanted, giveUp.signal), this.restMs);

@@ -11,13 +11,21 @@ describe('a table of users', () => {
     expect(rows).toEqual([
       { line: 2, name: 'anna', displayName: 'Doe; Anna', role: 'trainee', password: '', fault: null, exists: false },
     ]);
-    expect(checkUsers('anna\ttrainee\tlong enough 1\n', []).rows[0]).toMatchObject({ password: 'long enough 1' });
+    const tabbed = checkUsers('name\trole\tpassword\nanna\ttrainee\tlong enough 1\n', []);
+    expect(tabbed.rows[0]).toMatchObject({ password: 'long enough 1' });
     expect(checkUsers(words.example, []).rows.map(({ fault }) => fault)).toEqual([null, null]);
     expect(checkUsers('  \n', [])).toEqual({ rows: [], fault: null });
   });
 
   it('needs names and roles', () => {
     expect(checkUsers('name,password\nanna,long enough 1', []).fault).toBe(words.noColumn);
+  });
+
+  it('is not guessed at: a display name is taken for no password', () => {
+    expect(checkUsers('anna,trainee,Anna Example', []).fault).toBe(words.noColumn);
+    expect(checkUsers('name,role,E-mail\nanna,trainee,a@b', []).fault).toBe(words.unknownColumn('E-mail'));
+    expect(checkUsers('name,role,display name\nanna,trainee,M\uFFFDller', []).fault).toBe(words.notUtf8);
+    expect(checkUsers('name,role\n@anna,trainee', []).rows[0]?.fault).toBe(words.badName);
   });
 
   it('says what is wrong by line', () => {
@@ -45,7 +53,7 @@ describe('a table of users', () => {
       [10, null],
     ]);
     expect(rows.at(-1)?.exists).toBe(true);
-    expect(checkUsers('anna,"trainee', []).rows[0]?.fault).toBe(words.quotes);
+    expect(checkUsers('name,role\nanna,"trainee', []).rows[0]?.fault).toBe(words.quotes);
   });
 });
 
@@ -53,7 +61,8 @@ describe('many users', () => {
   const three = 'name,role,password\nanna,trainee\nben,trainee\ncarl,instructor,long enough 1';
 
   it('are made one by one; what fails can be tried again, and passwords stay', async () => {
-    const bulk = new BulkUsers(() => 'secret words');
+    let made = 0;
+    const bulk = new BulkUsers(() => `secret words ${++made}`);
     bulk.write(three);
     const asked: NewUser[] = [];
     let refused = 'ben';
@@ -63,16 +72,17 @@ describe('many users', () => {
     };
     await bulk.create(add);
     expect(asked.map(({ name, password }) => [name, password])).toEqual([
-      ['anna', 'secret words'],
-      ['ben', 'secret words'],
+      ['anna', 'secret words 1'],
+      ['ben', 'secret words 2'],
       ['carl', 'long enough 1'],
     ]);
     expect(bulk.outcomes.value.get(3)).toEqual({ created: false, reason: 'taken' });
     expect([bulk.created.value, bulk.failed.value, bulk.open.value.length]).toEqual([2, 1, 1]);
-    expect(bulk.passwordTable.split('\r\n')).toEqual(['name,password', 'anna,secret words']);
+    expect(bulk.passwordTable.split('\r\n')).toEqual(['name,password', 'anna,secret words 1']);
     refused = '';
     await bulk.create(add);
     expect(asked).toHaveLength(4);
+    expect(asked[3]?.password).toBe('secret words 2');
     expect(bulk.open.value).toEqual([]);
     bulk.write('');
     expect(bulk.generated.value.map(({ name }) => name)).toEqual(['anna', 'ben']);

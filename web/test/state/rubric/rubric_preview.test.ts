@@ -21,13 +21,15 @@ it('follows session and rubric; of two answers the later question counts', async
   draft.value = rubric('B');
   await vi.waitFor(() => expect(asked).toHaveLength(2));
   expect(asked[0]?.signal.aborted).toBe(true);
-  asked[1]?.answer({ points: 2 } as Score);
-  asked[0]?.answer({ points: 1 } as Score);
+  asked[1]?.answer({ session: 's1', points: 2 } as Score);
+  asked[0]?.answer({ session: 's1', points: 1 } as Score);
   await vi.waitFor(() => expect(preview.score.value?.points).toBe(2));
   expect(preview.stale.value).toBe(false);
   draft.value = null;
   expect(preview.stale.value).toBe(true);
   expect(preview.score.value?.points).toBe(2);
+  preview.session.value = 's2';
+  expect(preview.score.value).toBeNull();
   preview.session.value = '';
   expect(preview.score.value).toBeNull();
   end();
