@@ -29,7 +29,7 @@ import { layReamerAside } from './state/reamer_at_end';
 import { ResultWatch } from './state/result_watch';
 import { Sound } from './state/sound';
 import { Store } from './state/store';
-import { StudyLine } from './state/study/study_line';
+import { type InStudy, StudyLine } from './state/study/study_line';
 import { FeelWatch } from './state/study/feel_watch';
 import { theatreHere } from './state/theatre';
 import { theme } from './state/theme';
@@ -102,7 +102,7 @@ function main(root: HTMLElement): void {
         health: healthHere(store, practiceStore, latency),
         annotations,
         comments,
-        study: studyLine(store, api),
+        study: studyLine(identity, store, api),
         choice,
         practice,
         practiceStore,
@@ -180,9 +180,13 @@ function noticeComments(
   return new CommentNotices({ ...watched, ownNames });
 }
 
-function studyLine(store: Store, api: Api): StudyLine {
+function studyLine(identity: Identity, store: Store, api: Api): StudyLine {
   const studies = new StudyApi(window.location.origin);
-  return new StudyLine({ store, study: (id) => studies.study(id), earlier: (session) => api.earlierInStudy(session) });
+  // Who came by a link may list one session only, and cannot count.
+  const mayCount = () => identity.visitor.peek()?.role !== 'viewer';
+  const earlier = (session: InStudy) =>
+    mayCount() ? api.earlierInStudy(session) : Promise.reject(new Error('not to be counted by a link'));
+  return new StudyLine({ store, study: (id) => studies.study(id), earlier });
 }
 
 function watchForFeel(

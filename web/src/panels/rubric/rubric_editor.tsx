@@ -106,7 +106,7 @@ export function SaveBar({ api, id, draft }: Parts) {
     if (rubric === null) return;
     busy.value = true;
     try {
-      draft.take(await api.save(id, rubric));
+      draft.taken(rubric, await api.save(id, rubric));
       status.value = { kind: 'soft', words: rubricText.saved(draft.version.value) };
     } catch (error) {
       if (error instanceof ApiError) draft.refuse(error.faults);

@@ -121,14 +121,27 @@ type Loaded = Pick<Questionnaire, 'id' | 'title'> & {
 };
 
 /** Enough of one to be shown; the rest is said beside the fields, or by the server. */
+const isText = (value: unknown): value is string => typeof value === 'string';
+const isTextOrNone = (value: unknown): boolean => value === undefined || isText(value);
+
 function isQuestionnaire(value: unknown): value is Loaded {
-  const { id, title, items } = (value ?? {}) as Record<string, unknown>;
-  if (typeof id !== 'string' || typeof title !== 'string' || !Array.isArray(items)) return false;
-  return items.every((item: unknown) => {
-    const { id, kind, words, options } = (item ?? {}) as Record<string, unknown>;
-    const known = typeof id === 'string' && typeof words === 'string';
-    return known && (kind === 'likert' || kind === 'text' || (kind === 'choice' && Array.isArray(options)));
-  });
+  const { id, title, introduction, language, items } = (value ?? {}) as Record<string, unknown>;
+  const texts = isText(id) && isText(title) && isTextOrNone(introduction) && isTextOrNone(language);
+  return texts && Array.isArray(items) && items.every(isItem);
+}
+
+function isItem(item: unknown): boolean {
+  const { id, kind, words, options, section, low, middle, high } = (item ?? {}) as Record<string, unknown>;
+  const known = isText(id) && isText(words) && [section, low, middle, high].every(isTextOrNone);
+  return known && (kind === 'likert' || kind === 'text' || (kind === 'choice' && areOptions(options)));
+}
+
+function areOptions(options: unknown): boolean {
+  const isOption = (option: unknown) => {
+    const { id, words } = (option ?? {}) as Record<string, unknown>;
+    return isText(id) && isText(words);
+  };
+  return Array.isArray(options) && options.every(isOption);
 }
 
 function faultsOf({ id, title, items }: Questionnaire): ReadonlyMap<string, string> {

@@ -27,6 +27,15 @@ describe('a questionnaire while it is written', () => {
   it('takes nothing else', () => {
     for (const other of [null, 7, [], {}, { id: 'a', title: 'b', items: [{ kind: 'text' }] }])
       expect(() => draft.load(other)).toThrow(words.notOne);
+    const choice = (options: unknown) => ({ id: 'q', kind: 'choice', words: 'Why?', options });
+    for (const item of [
+      choice(['Yes', 'No']),
+      choice([null]),
+      choice([{ id: 'a' }]),
+      { id: 'q', kind: 'likert', words: 'Why?', low: 5 },
+      null,
+    ])
+      expect(() => draft.load({ id: 'a', title: 'b', items: [item] })).toThrow(words.notOne);
     expect(draft.items.value).toEqual([]);
   });
 
