@@ -39,10 +39,8 @@ export class BenchmarkDraft {
     const [experts, novices] = [this.experts.value, this.novices.value];
     return {
       name: this.name.value.trim(),
-      experts: experts as NewBenchmark['experts'],
-      ...(novices.length === 0
-        ? {}
-        : { novices: novices as NonNullable<NewBenchmark['novices']>, rubric: this.rubric.value }),
+      experts,
+      ...(novices.length === 0 ? {} : { novices, rubric: this.rubric.value }),
     };
   }
 

@@ -66,7 +66,7 @@ export function criterionOf(draft: CriterionDraft): Criterion {
     metric: draft.metric,
     weight: numberIn(draft.weight),
     ...(draft.critical ? { critical: true } : {}),
-    ...(draft.points === 'curve' ? { curve: curve as NonNullable<Criterion['curve']> } : {}),
+    ...(draft.points === 'curve' ? { curve } : {}),
     ...(draft.limits === 'catalogue' ? {} : { band: limitsOf(draft, draft.limits) }),
     ...(draft.source.trim() === '' ? {} : { source: draft.source.trim() }),
   };

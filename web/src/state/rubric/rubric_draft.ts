@@ -99,7 +99,7 @@ function rubricOf(content: Content, version: number): Rubric {
     ...(remark.trim() === '' ? {} : { remark: remark.trim() }),
     ...(passPoints.trim() === '' ? {} : { pass_points: numberIn(passPoints) }),
     least_said_percent: numberIn(leastMeasured),
-    criteria: criteria.map(criterionOf) as Rubric['criteria'],
+    criteria: criteria.map(criterionOf),
   };
 }
 

@@ -93,7 +93,7 @@ function blankItem(kind: ItemKind, id: string): QuestionnaireItem {
     case 'likert':
       return complete({ id, kind, words: '', points: 5 });
     case 'choice':
-      return complete({ id, kind, words: '', options: withOption(withOption([])) as [ChoiceOption, ChoiceOption] });
+      return complete({ id, kind, words: '', options: withOption(withOption([])) });
     case 'text':
       return complete({ id, kind, words: '' });
   }

@@ -70,7 +70,7 @@ export class StudyDraft {
 
   /** The server takes it as it is: nothing of it is left out. */
   private own(): NewStudy['questionnaire'] {
-    return this.questionnaire.questionnaire.value as NewStudy['questionnaire'];
+    return this.questionnaire.questionnaire.value;
   }
 
   private ofScores(): Pick<NewStudy, 'cases' | 'design' | 'rating_form'> {
