@@ -29,7 +29,7 @@ import { layReamerAside } from './state/reamer_at_end';
 import { ResultWatch } from './state/result_watch';
 import { Sound } from './state/sound';
 import { Store } from './state/store';
-import { StudyLine } from './state/study/study_line';
+import { type InStudy, StudyLine } from './state/study/study_line';
 import { FeelWatch } from './state/study/feel_watch';
 import { theatreHere } from './state/theatre';
 import { theme } from './state/theme';
@@ -102,7 +102,7 @@ function main(root: HTMLElement): void {
         health: healthHere(store, practiceStore, latency),
         annotations,
         comments,
-        study: studyLine(store, api),
+        study: studyLine(store, api, identity),
         choice,
         practice,
         practiceStore,
@@ -180,9 +180,11 @@ function noticeComments(
   return new CommentNotices({ ...watched, ownNames });
 }
 
-function studyLine(store: Store, api: Api): StudyLine {
+function studyLine(store: Store, api: Api, identity: Identity): StudyLine {
   const studies = new StudyApi(window.location.origin);
-  return new StudyLine({ store, study: (id) => studies.study(id), earlier: (session) => api.earlierInStudy(session) });
+  // A viewer may list only the session of the link.
+  const earlier = async (session: InStudy) => (identity.may.peek().ream ? await api.earlierInStudy(session) : null);
+  return new StudyLine({ store, study: (id) => studies.study(id), earlier });
 }
 
 function watchForFeel(

@@ -8,13 +8,13 @@ export const practiceText = {
   levels: {
     guided: 'Guided',
     free: 'Free start',
-    own: 'Own pressure',
+    own: 'Free force',
     exam: 'Exam',
   } satisfies Record<LevelName, string>,
   levelHint: {
     guided: 'The reamer starts on the plan. You set the maximum force. Gauges and help are shown.',
     free: 'The reamer starts off the plan and tilted. You set the maximum force. Gauges and help are shown.',
-    own: 'As Free start, but the force rises while you push. Gauges are shown, help and alarms are not.',
+    own: 'Like Free start, but the force rises while you push. Gauges are shown, help and alarms are not.',
     exam: 'Theatre mode: no gauges, plan or help. The reamer starts off the plan. The force rises while you push.',
   } satisfies Record<LevelName, string>,
   reamer: (name: string) => `Reamer: ${name}`,

@@ -54,7 +54,15 @@ export function SiteNav({ here }: { here: Route['kind'] }) {
 export function HeaderEnd() {
   return (
     <div class="header-end">
-      <a class="help-link" href="./docs/" title={pageText.helpHint} data-testid="to-help">
+      {/* Leaving the page would end the control of a session. */}
+      <a
+        class="help-link"
+        href="./docs/"
+        target="_blank"
+        rel="noopener"
+        title={pageText.helpHint}
+        data-testid="to-help"
+      >
         {pageText.help}
       </a>
       <ThemeButton />

@@ -34,8 +34,6 @@ const columnNames: Readonly<Record<string, Column>> = {
   password: 'password',
   'display name': 'displayName',
 };
-/** Of a table without names of columns. */
-const usualColumns: readonly Column[] = ['name', 'role', 'password'];
 const minPassword = 10;
 
 /** Reads what was pasted or is in a file, with commas, semicolons or tabs, and checks every line. */
@@ -46,11 +44,10 @@ export function checkUsers(text: string, taken: readonly string[]): UserTableChe
   const filled = lines.filter(({ cells }) => cells.some((cell) => cell !== ''));
   const [first] = filled;
   if (first === undefined) return { rows: [], fault: null };
-  const named = columnsOf(first.cells);
-  if (named !== null && !(named.includes('name') && named.includes('role')))
-    return { rows: [], fault: bulkUsersText.noColumn };
-  const columns = named ?? usualColumns;
-  const rows = (named === null ? filled : filled.slice(1)).map(({ line, cells }) => {
+  const columns = columnsOf(first.cells);
+  const fault = text.includes('\uFFFD') ? bulkUsersText.noUnicode : faultOfHeading(first.cells, columns);
+  if (fault !== null) return { rows: [], fault };
+  const rows = filled.slice(1).map(({ line, cells }) => {
     const cell = (column: Column) => cells[columns.indexOf(column)] ?? '';
     const row = {
       line,
@@ -64,15 +61,21 @@ export function checkUsers(text: string, taken: readonly string[]): UserTableChe
   return { rows: rows.map((row, i) => ({ ...row, fault: row.fault ?? faultOf(row, rows.slice(0, i)) })), fault: null };
 }
 
-/** Null where the line is not one of names of columns. */
-function columnsOf(cells: readonly string[]): (Column | null)[] | null {
-  const columns = cells.map((cell) => columnNames[cell.toLowerCase().replace(/[_-]/g, ' ')] ?? null);
-  return columns.some((column) => column === 'name' || column === 'role') ? columns : null;
+/** Null for names that are not known. */
+const columnsOf = (cells: readonly string[]): (Column | null)[] =>
+  cells.map((cell) => columnNames[cell.toLowerCase().replace(/[_-]/g, ' ')] ?? null);
+
+/** Without names of columns a display name could be taken for a password. */
+function faultOfHeading(cells: readonly string[], columns: readonly (Column | null)[]): string | null {
+  if (!columns.includes('name') || !columns.includes('role')) return bulkUsersText.noColumn;
+  const unknown = cells.find((cell, i) => cell !== '' && columns[i] === null);
+  return unknown === undefined ? null : bulkUsersText.unknownColumn(unknown);
 }
 
 function faultOf({ name, displayName, role, password }: UserRow, before: readonly UserRow[]): string | null {
   const same = before.find((row) => row.name === name);
   if (name === '') return bulkUsersText.noName;
+  if (/^[@=+-]/.test(name)) return bulkUsersText.badStart;
   if (!/^[a-z0-9._@-]{1,64}$/.test(name)) return bulkUsersText.badName;
   if (same !== undefined) return bulkUsersText.twice(same.line);
   if (role === '') return bulkUsersText.noRole;

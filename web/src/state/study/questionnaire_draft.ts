@@ -125,11 +125,20 @@ function isQuestionnaire(value: unknown): value is Loaded {
   const { id, title, items } = (value ?? {}) as Record<string, unknown>;
   if (typeof id !== 'string' || typeof title !== 'string' || !Array.isArray(items)) return false;
   return items.every((item: unknown) => {
-    const { id, kind, words, options } = (item ?? {}) as Record<string, unknown>;
-    const known = typeof id === 'string' && typeof words === 'string';
-    return known && (kind === 'likert' || kind === 'text' || (kind === 'choice' && Array.isArray(options)));
+    const { id, kind, words, options, section, low, middle, high } = (item ?? {}) as Record<string, unknown>;
+    const known = typeof id === 'string' && typeof words === 'string' && [section, low, middle, high].every(isWords);
+    return known && (kind === 'likert' || kind === 'text' || (kind === 'choice' && isOptions(options)));
   });
 }
+
+const isWords = (value: unknown): boolean => value === undefined || typeof value === 'string';
+
+const isOptions = (value: unknown): boolean =>
+  Array.isArray(value) &&
+  value.every((option: unknown) => {
+    const { id, words } = (option ?? {}) as Record<string, unknown>;
+    return typeof id === 'string' && typeof words === 'string';
+  });
 
 function faultsOf({ id, title, items }: Questionnaire): ReadonlyMap<string, string> {
   const faults = new Map<string, string>();

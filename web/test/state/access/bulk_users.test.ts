@@ -11,12 +11,17 @@ describe('a table of users', () => {
     expect(rows).toEqual([
       { line: 2, name: 'anna', displayName: 'Doe; Anna', role: 'trainee', password: '', fault: null, exists: false },
     ]);
-    expect(checkUsers('anna\ttrainee\tlong enough 1\n', []).rows[0]).toMatchObject({ password: 'long enough 1' });
+    const tabs = 'name\trole\tpassword\nanna\ttrainee\tlong enough 1\n';
+    expect(checkUsers(tabs, []).rows[0]).toMatchObject({ password: 'long enough 1' });
     expect(checkUsers(words.example, []).rows.map(({ fault }) => fault)).toEqual([null, null]);
     expect(checkUsers('  \n', [])).toEqual({ rows: [], fault: null });
   });
 
-  it('needs names and roles', () => {
+  it('needs names and roles, and no column that is not known', () => {
+    expect(checkUsers('anna,trainee,Anna Example', [])).toEqual({ rows: [], fault: words.noColumn });
+    expect(checkUsers('name,role,team\nanna,trainee,A', []).fault).toBe(words.unknownColumn('team'));
+    expect(checkUsers('name,role\nz\uFFFDe,trainee', []).fault).toBe(words.noUnicode);
+    expect(checkUsers('name,role\n=anna,trainee', []).rows[0]?.fault).toBe(words.badStart);
     expect(checkUsers('name,password\nanna,long enough 1', []).fault).toBe(words.noColumn);
   });
 
@@ -45,7 +50,7 @@ describe('a table of users', () => {
       [10, null],
     ]);
     expect(rows.at(-1)?.exists).toBe(true);
-    expect(checkUsers('anna,"trainee', []).rows[0]?.fault).toBe(words.quotes);
+    expect(checkUsers('name,role\nanna,"trainee', []).rows[0]?.fault).toBe(words.quotes);
   });
 });
 
@@ -53,7 +58,8 @@ describe('many users', () => {
   const three = 'name,role,password\nanna,trainee\nben,trainee\ncarl,instructor,long enough 1';
 
   it('are made one by one; what fails can be tried again, and passwords stay', async () => {
-    const bulk = new BulkUsers(() => 'secret words');
+    let drawn = 0;
+    const bulk = new BulkUsers(() => (++drawn > 0 ? 'secret words' : ''));
     bulk.write(three);
     const asked: NewUser[] = [];
     let refused = 'ben';
@@ -73,7 +79,11 @@ describe('many users', () => {
     refused = '';
     await bulk.create(add);
     expect(asked).toHaveLength(4);
+    expect(drawn).toBe(2);
     expect(bulk.open.value).toEqual([]);
+    expect(bulk.unsaved.value).toBe(true);
+    bulk.noteCopied();
+    expect(bulk.unsaved.value).toBe(false);
     bulk.write('');
     expect(bulk.generated.value.map(({ name }) => name)).toEqual(['anna', 'ben']);
   });
