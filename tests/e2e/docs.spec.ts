@@ -15,13 +15,15 @@ async function faults(page: Page): Promise<string[]> {
 const overflow = (page: Page) =>
   page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
 
-test('Help leads to the list of guides, and that to each guide', async ({ page }) => {
+test('Help leads to the list of guides, and that to each guide', async ({ page: session, context }) => {
   const violations: string[] = [];
-  page.on('console', (message) => {
+  context.on('console', (message) => {
     if (message.type() === 'error') violations.push(message.text());
   });
-  await page.goto(`${here.server.url}/#/cases`);
-  await page.getByTestId('to-help').click();
+  await session.goto(`${here.server.url}/#/cases`);
+  const opened = context.waitForEvent('page');
+  await session.getByTestId('to-help').click();
+  const page = await opened;
   await expect(page).toHaveURL(/\/docs\/$/);
   await expect(page.getByRole('heading', { level: 1 })).toHaveText('Guides');
 

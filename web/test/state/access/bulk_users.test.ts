@@ -3,6 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { BulkUsers } from '../../../src/state/access/bulk_users';
 import { checkUsers, generatedPassword } from '../../../src/state/access/user_rows';
 import { bulkUsersText as words } from '../../../src/text/bulk_users_text';
+import { ApiError } from '../../../src/wire/rest';
 import type { NewUser } from '../../../src/wire/rest_types';
 
 describe('a table of users', () => {
@@ -86,6 +87,14 @@ describe('many users', () => {
     expect(bulk.unsaved.value).toBe(false);
     bulk.write('');
     expect(bulk.generated.value.map(({ name }) => name)).toEqual(['anna', 'ben']);
+  });
+
+  it('that are there after a failed try need a new password', async () => {
+    const bulk = new BulkUsers(() => 'secret words');
+    bulk.write('name,role\nanna,trainee');
+    await bulk.create(() => Promise.reject(new ApiError('no answer', 0)));
+    await bulk.create(() => Promise.reject(new ApiError('exists', 409)));
+    expect(bulk.outcomes.value.get(2)).toEqual({ created: false, reason: words.thereAfterAll });
   });
 
   it('are not made while a line is wrong', async () => {
