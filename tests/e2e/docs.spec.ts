@@ -15,14 +15,14 @@ async function faults(page: Page): Promise<string[]> {
 const overflow = (page: Page) =>
   page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
 
-test('Help opens the list of guides beside the page, and that leads to each guide', async ({ page: work, context }) => {
+test('Help leads to the list of guides, and that to each guide', async ({ page: session, context }) => {
   const violations: string[] = [];
   context.on('console', (message) => {
     if (message.type() === 'error') violations.push(message.text());
   });
-  await work.goto(`${here.server.url}/#/cases`);
-  const opened = work.waitForEvent('popup');
-  await work.getByTestId('to-help').click();
+  await session.goto(`${here.server.url}/#/cases`);
+  const opened = context.waitForEvent('page');
+  await session.getByTestId('to-help').click();
   const page = await opened;
   await expect(page).toHaveURL(/\/docs\/$/);
   await expect(page.getByRole('heading', { level: 1 })).toHaveText('Guides');

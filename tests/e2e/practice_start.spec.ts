@@ -20,7 +20,13 @@ async function practise(page: Page, name: string): Promise<void> {
   await page.waitForFunction(() => window.__ream.deviceLink === 'holding', null, { timeout: 60_000 });
 }
 
-const offPlanMm = async (page: Page) => parseFloat((await page.getByTestId('off-plan').textContent()) ?? '');
+/** Waits until the page shows a number. */
+async function offPlanMm(page: Page): Promise<number> {
+  let shown = NaN;
+  const read = async () => (shown = parseFloat((await page.getByTestId('off-plan').textContent()) ?? ''));
+  await expect.poll(async () => Number.isFinite(await read())).toBe(true);
+  return shown;
+}
 
 async function stop(page: Page): Promise<void> {
   await page.getByTestId('stop').click();

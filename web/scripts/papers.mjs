@@ -64,8 +64,14 @@ function allPapers() {
 
 const papers = allPapers();
 
+/** Sources of the pictures by name. */
+const pictures = new Map();
+
 function copied(paper, source) {
   const from = join(repository, dirname(paper), source);
+  const other = pictures.get(basename(source)) ?? from;
+  if (other !== from) throw new Error(`${from} and ${other} have the same name`);
+  pictures.set(basename(source), from);
   mkdirSync(join(folder, 'pictures'), { recursive: true });
   copyFileSync(from, join(folder, 'pictures', basename(source)));
   return `pictures/${basename(source)}`;
@@ -145,7 +151,7 @@ ${apart ? '<strong>ream</strong>' : '<a href="../">ream</a>'}
 </header>
 <div class="columns">
 <main id="content">
-${body.replace('</h1>\n', `</h1>\n${contentsOf(contents)}`)}</main>
+${body.replace('</h1>\n', (end) => end + contentsOf(contents))}</main>
 <nav id="papers" class="papers" aria-label="All guides">
 <h2>All guides</h2>
 <ul>${papers.map(listItem(here)).join('')}</ul>

@@ -102,7 +102,7 @@ function main(root: HTMLElement): void {
         health: healthHere(store, practiceStore, latency),
         annotations,
         comments,
-        study: studyLine(identity, store, api),
+        study: studyLine(store, api, identity),
         choice,
         practice,
         practiceStore,
@@ -180,12 +180,10 @@ function noticeComments(
   return new CommentNotices({ ...watched, ownNames });
 }
 
-function studyLine(identity: Identity, store: Store, api: Api): StudyLine {
+function studyLine(store: Store, api: Api, identity: Identity): StudyLine {
   const studies = new StudyApi(window.location.origin);
-  // Who came by a link may list one session only, and cannot count.
-  const mayCount = () => identity.visitor.peek()?.role !== 'viewer';
-  const earlier = (session: InStudy) =>
-    mayCount() ? api.earlierInStudy(session) : Promise.reject(new Error('not to be counted by a link'));
+  // A viewer may list only the session of the link.
+  const earlier = async (session: InStudy) => (identity.may.peek().ream ? await api.earlierInStudy(session) : null);
   return new StudyLine({ store, study: (id) => studies.study(id), earlier });
 }
 

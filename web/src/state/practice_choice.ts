@@ -64,12 +64,12 @@ export class PracticeChoice {
 
   /** Reads the reamer of the chosen case, whenever that is another one; until the result is called. */
   followReamer(): () => void {
-    // A case that the list does not have yet cannot be read either.
-    const isThere = computed(() => this.cases.value?.some(({ id }) => id === this.caseId.value) ?? false);
+    // Null for a case that the list does not have yet: it cannot be read either. A list read again changes nothing.
+    const readable = computed(() => this.cases.value?.find(({ id }) => id === this.caseId.value)?.id ?? null);
     return effect(() => {
-      const id = this.caseId.value;
+      const id = readable.value;
       this.reamer.value = null;
-      if (isThere.value) void this.readReamer(id);
+      if (id !== null) void this.readReamer(id);
     });
   }
 

@@ -22,7 +22,8 @@ export const benchmarkText = {
   groups: { none: 'Not used', expert: 'Expert', novice: 'Novice' } as const,
   noSessions: 'No session has ended yet.',
   newest: (count: number) => `The ${count} newest sessions that have ended.`,
-  chosen: (experts: number, novices: number) => `Chosen: ${experts} expert, ${novices} novice.`,
+  chosen: (experts: number, novices: number) =>
+    `Chosen: ${experts} ${experts === 1 ? 'expert' : 'experts'}, ${novices} ${novices === 1 ? 'novice' : 'novices'}.`,
   needExpert: 'Choose at least one expert session.',
   needThree: 'Pass marks need at least three sessions in each group.',
   create: 'Create benchmark',

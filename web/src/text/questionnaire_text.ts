@@ -1,5 +1,6 @@
 /** Texts of editing a study's questionnaire; loaded with the pages about studies. */
 export const questionnaireText = {
+  leave: 'The study is not created yet. Leave and lose its questionnaire?',
   title: 'Title',
   introduction: 'Introduction',
   id: 'Name in the data',

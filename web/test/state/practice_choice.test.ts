@@ -104,13 +104,16 @@ describe('What is practised next', () => {
   });
 
   it('says the reamer of the plan by its name, else in its words', async () => {
-    const { choice } = place();
+    const { choice, api } = place();
     const stop = choice.followReamer();
     await settle();
     expect(choice.reamer.value).toBeNull();
     await choice.read();
     await settle();
     expect(choice.reamer.value).toMatchObject({ name: 'convex-30', diameter_mm: 28 });
+    await choice.read();
+    expect(choice.reamer.value).not.toBeNull();
+    expect(api.case).toHaveBeenCalledTimes(1);
     choice.choose('a');
     expect(choice.reamer.value).toBeNull();
     await settle();

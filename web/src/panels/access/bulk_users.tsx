@@ -1,8 +1,10 @@
+import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 
 import { BulkUsers } from '../../state/access/bulk_users';
 import { isRole, type UserRow } from '../../state/access/user_rows';
 import type { Remote } from '../../state/remote';
+import { guardUnsaved } from '../../state/unsaved';
 import { accessText } from '../../text/access_text';
 import { appText } from '../../text/app_text';
 import { bulkUsersText } from '../../text/bulk_users_text';
@@ -22,6 +24,14 @@ export function BulkUsersPanel({ api, users }: { api: AccessApi; users: Remote<U
   useEffect(() => {
     if (!bulk.tried.peek()) bulk.taken.value = (list ?? []).map(({ name }) => name);
   }, [bulk, list, bulk.tried.value]);
+  useEffect(
+    () =>
+      guardUnsaved(
+        () => bulk.unsaved.peek(),
+        () => window.confirm(bulkUsersText.leave),
+      ),
+    [bulk],
+  );
   const { rows, fault } = bulk.check.value;
   return (
     <section class="content-panel" aria-labelledby="bulk-title" data-testid="bulk-users">
@@ -51,12 +61,18 @@ export function BulkUsersPanel({ api, users }: { api: AccessApi; users: Remote<U
 }
 
 function TableText({ bulk }: { bulk: BulkUsers }) {
+  const problem = useSignal<string | null>(null);
   const read = async (input: HTMLInputElement) => {
     const file = input.files?.[0];
-    // Empty again, so that the same file can be chosen once more.
-    const text = await file?.text().catch(() => '\uFFFD');
+    if (file === undefined) return;
+    problem.value = null;
+    try {
+      bulk.write(await file.text());
+    } catch {
+      problem.value = bulkUsersText.notRead;
+    }
+    // The same file can be chosen again when it was corrected.
     input.value = '';
-    if (text !== undefined) bulk.write(text);
   };
   return (
     <div class="content-form">
@@ -70,6 +86,7 @@ function TableText({ bulk }: { bulk: BulkUsers }) {
           onChange={(event) => void read(event.currentTarget)}
         />
       </label>
+      {problem.value !== null && <Message kind="bad">{problem.value}</Message>}
       <label class="wide">
         {bulkUsersText.table}
         <textarea
@@ -163,7 +180,7 @@ function Passwords({ bulk }: { bulk: BulkUsers }) {
         value={table}
         onFocus={(event) => event.currentTarget.select()}
       />
-      <CopyButton text={table} words={bulkUsersText.copyAll} testId="bulk-copy" />
+      <CopyButton text={table} words={bulkUsersText.copyAll} testId="bulk-copy" onCopied={() => bulk.noteCopied()} />
     </div>
   );
 }

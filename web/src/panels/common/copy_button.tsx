@@ -10,16 +10,18 @@ interface Parts {
   /** Stand on it in place of the usual ones. */
   words?: string;
   testId?: string;
+  onCopied?: () => void;
 }
 
 /** Copies a text; says on itself whether it could. */
-export function CopyButton({ text, label, words, testId }: Parts) {
+export function CopyButton({ text, label, words, testId, onCopied }: Parts) {
   const copied = useSignal<boolean | null>(null);
   const copy = async () => {
     copied.value = await navigator.clipboard.writeText(text).then(
       () => true,
       () => false,
     );
+    if (copied.value) onCopied?.();
   };
   const { copy: usual, copied: done, notCopied } = pageText;
   const said = copied.value === null ? (words ?? usual) : copied.value ? done : notCopied;

@@ -54,6 +54,7 @@ export function SiteNav({ here }: { here: Route['kind'] }) {
 export function HeaderEnd() {
   return (
     <div class="header-end">
+      {/* Leaving the page would end the control of a session. */}
       <a
         class="help-link"
         href="./docs/"

@@ -43,21 +43,36 @@ export function Guide({ store, practice }: { store: Store; practice: PracticeSto
           </li>
         ))}
       </ol>
-      <details>
-        <summary>{appText.guideControls}</summary>
-        <dl>
-          {appText.guideControlList.map(([what, how]) => (
-            <Fragment key={what}>
-              <dt>{what}</dt>
-              <dd>{how}</dd>
-            </Fragment>
-          ))}
-        </dl>
-      </details>
+      <Controls />
       <button type="button" data-testid="guide-hide" onClick={() => show(false)}>
         {appText.guideHide}
       </button>
     </section>
+  );
+}
+
+/** What keys, mouse and gamepad do; at a level without hints all that is left of the guide. */
+export function ControlsOnly() {
+  return (
+    <section class="guide" aria-label={appText.guideControls} data-testid="controls">
+      <Controls />
+    </section>
+  );
+}
+
+function Controls() {
+  return (
+    <details>
+      <summary>{appText.guideControls}</summary>
+      <dl>
+        {appText.guideControlList.map(([what, how]) => (
+          <Fragment key={what}>
+            <dt>{what}</dt>
+            <dd>{how}</dd>
+          </Fragment>
+        ))}
+      </dl>
+    </details>
   );
 }
 

@@ -10,7 +10,7 @@ import type { ViewSettings } from '../../state/view_settings';
 import { appText } from '../../text/app_text';
 import { AlarmList } from './alarm_list';
 import { CommentNotices } from './comment_notices';
-import { Guide } from './guide';
+import { ControlsOnly, Guide } from './guide';
 import { LinkNotice } from './link_notice';
 import { PracticeNotice } from './practice_notice';
 import { useIdentity } from '../common/site_nav';
@@ -68,6 +68,7 @@ export function Picture({ store, practice, scene, view, alarms, bare, guided, co
       {steering && practice.hints.value && bare !== true && guided !== true && (
         <Guide store={store} practice={practice} />
       )}
+      {steering && !practice.hints.value && bare !== true && guided !== true && <ControlsOnly />}
       {lost && store.upToDate.value ? (
         <PictureLost steering={steering} />
       ) : steering && store.upToDate.value ? (

@@ -7,6 +7,7 @@ import { dayAndTime } from '../../text/format';
 import type { BenchmarkSummary, Session } from '../../wire/rest_types';
 import type { RubricApi } from '../../wire/rubric_api';
 import { Button } from '../common/button';
+import { Message } from '../common/fields';
 import { Choice, TextLine } from '../common/form_fields';
 import { traineeLabel } from '../common/trainee_label';
 import { useRemote } from '../common/use_remote';
@@ -39,6 +40,7 @@ export function NewBenchmarkPanel({ api, benchmarks, onMade }: Parts) {
     <section class="content-panel" aria-labelledby="new-benchmark">
       <h2 id="new-benchmark">{benchmarkText.make}</h2>
       <p class="soft">{benchmarkText.makeHint}</p>
+      {found.problem.value !== null && <Message kind="bad">{found.problem.value}</Message>}
       {sessions?.length === 0 && <p class="soft">{benchmarkText.noSessions}</p>}
       {sessions !== null && sessions.length > 0 && (
         <form onSubmit={(event) => void make(event)}>

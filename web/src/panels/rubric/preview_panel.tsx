@@ -36,6 +36,7 @@ export function PreviewPanel({ api, id, draft }: Parts) {
     <section class="content-panel review-panel rubric-preview" aria-labelledby="preview-title" data-testid="preview">
       <h2 id="preview-title">{rubricText.preview}</h2>
       <p class="soft">{rubricText.previewHint}</p>
+      {sessions.problem.value !== null && <Message kind="bad">{sessions.problem.value}</Message>}
       {list?.length === 0 && <p class="soft">{rubricText.noSessions}</p>}
       {list !== null && list.length > 0 && (
         <SessionChoice

@@ -104,9 +104,10 @@ export function SaveBar({ api, id, draft }: Parts) {
   const save = async () => {
     const rubric = draft.rubric.peek();
     if (rubric === null) return;
+    const sent = draft.content.peek();
     busy.value = true;
     try {
-      draft.taken(rubric, await api.save(id, rubric));
+      draft.take(await api.save(id, rubric), sent);
       status.value = { kind: 'soft', words: rubricText.saved(draft.version.value) };
     } catch (error) {
       if (error instanceof ApiError) draft.refuse(error.faults);

@@ -1,8 +1,10 @@
 import { useSignal } from '@preact/signals';
-import { useMemo } from 'preact/hooks';
+import { useEffect, useMemo } from 'preact/hooks';
 
 import { type QuestionnaireChoice, StudyDraft } from '../../state/study/study_draft';
+import { guardUnsaved } from '../../state/unsaved';
 import { feelText } from '../../text/feel_text';
+import { questionnaireText } from '../../text/questionnaire_text';
 import { studyText } from '../../text/study_text';
 import { CaseApi } from '../../wire/case_api';
 import { messageOf } from '../../wire/rest';
@@ -21,11 +23,22 @@ import { SampleSizeHelp } from './sample_size_help';
 export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: string) => void }) {
   const draft = useMemo(() => new StudyDraft(), []);
   const previewed = useSignal(false);
+  const made = useSignal(false);
+  useEffect(
+    () =>
+      guardUnsaved(
+        () => !made.peek() && draft.questionnaireWritten,
+        () => window.confirm(questionnaireText.leave),
+      ),
+    [draft, made],
+  );
   const make = async (event: Event) => {
     event.preventDefault();
     draft.problem.value = null;
     try {
-      onMade((await api.make(draft.study())).id);
+      const { id } = await api.make(draft.study());
+      made.value = true;
+      onMade(id);
     } catch (error) {
       draft.problem.value = messageOf(error);
     }

@@ -1,7 +1,8 @@
 import { batch, computed, signal } from '@preact/signals';
 import Papa from 'papaparse';
 
-import { messageOf } from '../../wire/rest';
+import { bulkUsersText } from '../../text/bulk_users_text';
+import { ApiError, messageOf } from '../../wire/rest';
 import type { NewUser } from '../../wire/rest_types';
 import { checkUsers, generatedPassword, isRole, type UserRow } from './user_rows';
 
@@ -19,6 +20,13 @@ export class BulkUsers {
   /** Of users that were made here, until the page is left. */
   readonly generated = signal<readonly { name: string; password: string }[]>([]);
 
+  /** The generated passwords as they were when they were copied. */
+  private readonly copied = signal<unknown>(null);
+  /** Leaving the page would lose something. */
+  readonly unsaved = computed(
+    () => this.busy.value || (this.generated.value.length > 0 && this.copied.value !== this.generated.value),
+  );
+
   readonly check = computed(() => checkUsers(this.text.value, this.taken.value));
   readonly faults = computed(() => this.check.value.rows.filter(({ fault }) => fault !== null).length);
   /** Lines whose users are still to be made. */
@@ -29,16 +37,22 @@ export class BulkUsers {
   readonly created = computed(() => [...this.outcomes.value.values()].filter((one) => one?.created === true).length);
   readonly failed = computed(() => [...this.outcomes.value.values()].filter((one) => one?.created === false).length);
 
-  private readonly passwords = new Map<string, string>();
+  /** Of lines that were tried; a lost answer may have made the user with it. */
+  private readonly drawn = new Map<number, string>();
 
   constructor(private readonly password: () => string = () => generatedPassword()) {}
 
   /** Another table; what came of the one before is forgotten, but not its passwords. */
   write(text: string): void {
+    this.drawn.clear();
     batch(() => {
       this.text.value = text;
       this.outcomes.value = new Map();
     });
+  }
+
+  noteCopied(): void {
+    this.copied.value = this.generated.value;
   }
 
   /** As a table to be handed on. */
@@ -54,22 +68,23 @@ export class BulkUsers {
     this.busy.value = false;
   }
 
-  /** The same when a line is tried again: the user may exist, with the answer lost. */
-  private passwordFor(name: string): string {
-    const kept = this.passwords.get(name) ?? this.password();
-    this.passwords.set(name, kept);
-    return kept;
+  private passwordOf(line: number): string {
+    const password = this.drawn.get(line) ?? this.password();
+    this.drawn.set(line, password);
+    return password;
   }
 
   private async createOne(row: UserRow, add: Add): Promise<void> {
     if (!isRole(row.role)) return;
     const { name, role, displayName } = row;
-    const password = row.password === '' ? this.passwordFor(name) : row.password;
+    const password = row.password === '' ? this.passwordOf(row.line) : row.password;
+    const triedBefore = this.outcomes.value.get(row.line)?.created === false;
     let outcome: Outcome = { created: true };
     try {
       await add({ name, role, password, ...(displayName === '' ? {} : { display_name: displayName }) });
     } catch (error) {
-      outcome = { created: false, reason: messageOf(error) };
+      const there = triedBefore && error instanceof ApiError && error.status === 409;
+      outcome = { created: false, reason: there ? bulkUsersText.thereAfterAll : messageOf(error) };
     }
     batch(() => {
       this.outcomes.value = new Map([...this.outcomes.value, [row.line, outcome]]);

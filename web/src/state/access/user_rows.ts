@@ -45,10 +45,8 @@ export function checkUsers(text: string, taken: readonly string[]): UserTableChe
   const [first] = filled;
   if (first === undefined) return { rows: [], fault: null };
   const columns = columnsOf(first.cells);
-  if (!(columns.includes('name') && columns.includes('role'))) return { rows: [], fault: bulkUsersText.noColumn };
-  const unknown = first.cells.find((_, i) => columns[i] === null);
-  if (unknown !== undefined) return { rows: [], fault: bulkUsersText.unknownColumn(unknown) };
-  if (text.includes('\uFFFD')) return { rows: [], fault: bulkUsersText.notUtf8 };
+  const fault = text.includes('\uFFFD') ? bulkUsersText.noUnicode : faultOfHeading(first.cells, columns);
+  if (fault !== null) return { rows: [], fault };
   const rows = filled.slice(1).map(({ line, cells }) => {
     const cell = (column: Column) => cells[columns.indexOf(column)] ?? '';
     const row = {
@@ -63,15 +61,22 @@ export function checkUsers(text: string, taken: readonly string[]): UserTableChe
   return { rows: rows.map((row, i) => ({ ...row, fault: row.fault ?? faultOf(row, rows.slice(0, i)) })), fault: null };
 }
 
-/** By the first line; null for what is no name of a column. */
-function columnsOf(cells: readonly string[]): (Column | null)[] {
-  return cells.map((cell) => columnNames[cell.toLowerCase().replace(/[_-]/g, ' ')] ?? null);
+/** Null for names that are not known. */
+const columnsOf = (cells: readonly string[]): (Column | null)[] =>
+  cells.map((cell) => columnNames[cell.toLowerCase().replace(/[_-]/g, ' ')] ?? null);
+
+/** Without names of columns a display name could be taken for a password. */
+function faultOfHeading(cells: readonly string[], columns: readonly (Column | null)[]): string | null {
+  if (!columns.includes('name') || !columns.includes('role')) return bulkUsersText.noColumn;
+  const unknown = cells.find((cell, i) => cell !== '' && columns[i] === null);
+  return unknown === undefined ? null : bulkUsersText.unknownColumn(unknown);
 }
 
 function faultOf({ name, displayName, role, password }: UserRow, before: readonly UserRow[]): string | null {
   const same = before.find((row) => row.name === name);
   if (name === '') return bulkUsersText.noName;
-  if (!/^[a-z0-9][a-z0-9._@-]{0,63}$/.test(name)) return bulkUsersText.badName;
+  if (/^[@=+-]/.test(name)) return bulkUsersText.badStart;
+  if (!/^[a-z0-9._@-]{1,64}$/.test(name)) return bulkUsersText.badName;
   if (same !== undefined) return bulkUsersText.twice(same.line);
   if (role === '') return bulkUsersText.noRole;
   if (!isRole(role)) return bulkUsersText.badRole;

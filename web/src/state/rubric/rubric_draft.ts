@@ -43,9 +43,9 @@ export class RubricDraft {
     this.take(kept);
   }
 
-  /** From now on this is what is saved. */
-  take({ version, rubric }: KeptRubric): void {
-    this.content.value = {
+  /** From now on this is what is saved; what was typed since `sent` was the content stays. */
+  take({ version, rubric }: KeptRubric, sent: Content = this.content.peek()): void {
+    const kept: Content = {
       name: rubric.name,
       remark: rubric.remark ?? '',
       passPoints: rubric.pass_points === undefined ? '' : String(rubric.pass_points),
@@ -53,7 +53,8 @@ export class RubricDraft {
       criteria: rubric.criteria.map((criterion) => criterionDraft(this.nextKey++, criterion)),
     };
     this.version.value = version;
-    this.saved.value = said(this.content.value);
+    this.saved.value = said(kept);
+    if (this.content.peek() === sent) this.content.value = kept;
     this.refused.value = new Map();
   }
 

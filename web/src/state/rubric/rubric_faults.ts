@@ -59,7 +59,7 @@ function checkCriterion(draft: CriterionDraft, known: KnownMetric | null, note: 
 function checkCurve({ curve }: CriterionDraft, note: Note): void {
   if (curve.length < 2) note('curve', rubricText.twoPoints);
   curve.forEach(({ at, points }, i) => {
-    if (Number.isNaN(numberIn(at))) note(`curve/${i}/at`, rubricText.needed);
+    if (!Number.isFinite(numberIn(at))) note(`curve/${i}/at`, rubricText.needed);
     else if (i > 0 && numberIn(at) <= numberIn(curve[i - 1]?.at ?? '')) note(`curve/${i}/at`, rubricText.ascending);
     within(points, 0, 100, (words) => note(`curve/${i}/points`, words));
   });
@@ -68,9 +68,9 @@ function checkCurve({ curve }: CriterionDraft, note: Note): void {
 function checkLimits({ limits, pass, warn, low }: CriterionDraft, note: Note): void {
   const second = limits === 'between' ? 'low' : 'warn';
   const [first, other] = [numberIn(pass), numberIn(second === 'low' ? low : warn)];
-  if (Number.isNaN(first)) note('band/pass', rubricText.needed);
-  if (Number.isNaN(other)) note(`band/${second}`, rubricText.needed);
+  if (!Number.isFinite(first)) note('band/pass', rubricText.needed);
+  if (!Number.isFinite(other)) note(`band/${second}`, rubricText.needed);
   const ordered = limits === 'between' ? other < first : limits === 'less' ? first <= other : first >= other;
-  if (!Number.isNaN(first) && !Number.isNaN(other) && !ordered)
+  if (Number.isFinite(first) && Number.isFinite(other) && !ordered)
     note(`band/${second}`, rubricText.limitsOrder[limits === 'catalogue' ? 'less' : limits]);
 }

@@ -23,14 +23,14 @@ export class RubricPreview {
 
   /** Until what it gives is called. `rubric`: null while it cannot be used. */
   follow(rubric: () => Rubric | null): () => void {
+    let shown = this.session.peek();
     return effect(() => {
       const [session, wanted] = [this.session.value, rubric()];
       this.stale.value = true;
-      // What was said of another session is not left beside this one's name.
-      if (this.score.peek()?.session !== session) this.score.value = null;
-      this.problem.value = null;
-      if (session === '') return undefined;
-      if (wanted === null) return undefined;
+      // The score of another session must not stand beside this one.
+      if (session !== shown) this.score.value = this.problem.value = null;
+      shown = session;
+      if (session === '' || wanted === null) return undefined;
       const giveUp = new AbortController();
       const timer = setTimeout(() => void this.ask(session, wanted, giveUp.signal), this.restMs);
       return () => {

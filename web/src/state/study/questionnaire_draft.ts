@@ -125,24 +125,23 @@ const isText = (value: unknown): value is string => typeof value === 'string';
 const isTextOrNone = (value: unknown): boolean => value === undefined || isText(value);
 
 function isQuestionnaire(value: unknown): value is Loaded {
-  const { id, title, introduction, language, items } = (value ?? {}) as Record<string, unknown>;
-  const texts = isText(id) && isText(title) && isTextOrNone(introduction) && isTextOrNone(language);
-  return texts && Array.isArray(items) && items.every(isItem);
+  const { id, title, items } = (value ?? {}) as Record<string, unknown>;
+  if (typeof id !== 'string' || typeof title !== 'string' || !Array.isArray(items)) return false;
+  return items.every((item: unknown) => {
+    const { id, kind, words, options, section, low, middle, high } = (item ?? {}) as Record<string, unknown>;
+    const known = typeof id === 'string' && typeof words === 'string' && [section, low, middle, high].every(isWords);
+    return known && (kind === 'likert' || kind === 'text' || (kind === 'choice' && isOptions(options)));
+  });
 }
 
-function isItem(item: unknown): boolean {
-  const { id, kind, words, options, section, low, middle, high } = (item ?? {}) as Record<string, unknown>;
-  const known = isText(id) && isText(words) && [section, low, middle, high].every(isTextOrNone);
-  return known && (kind === 'likert' || kind === 'text' || (kind === 'choice' && areOptions(options)));
-}
+const isWords = (value: unknown): boolean => value === undefined || typeof value === 'string';
 
-function areOptions(options: unknown): boolean {
-  const isOption = (option: unknown) => {
+const isOptions = (value: unknown): boolean =>
+  Array.isArray(value) &&
+  value.every((option: unknown) => {
     const { id, words } = (option ?? {}) as Record<string, unknown>;
-    return isText(id) && isText(words);
-  };
-  return Array.isArray(options) && options.every(isOption);
-}
+    return typeof id === 'string' && typeof words === 'string';
+  });
 
 function faultsOf({ id, title, items }: Questionnaire): ReadonlyMap<string, string> {
   const faults = new Map<string, string>();

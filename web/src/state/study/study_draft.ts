@@ -34,6 +34,11 @@ export class StudyDraft {
     return answerable && this.design.complete && this.cases.value.length > 0;
   }
 
+  /** There are questions that would be lost. */
+  get questionnaireWritten(): boolean {
+    return this.questionnaireChoice.peek() === 'own' && this.questionnaire.items.peek().length > 0;
+  }
+
   toggleCase(id: string): void {
     const chosen = this.cases.value;
     this.cases.value = chosen.includes(id) ? chosen.filter((one) => one !== id) : [...chosen, id];

@@ -6,8 +6,8 @@ import type { Store } from '../store';
 interface Sources {
   store: Store;
   study: (id: string) => Promise<Pick<Study, 'name'>>;
-  /** How many sessions the participant had in the study before this one. */
-  earlier: (session: InStudy) => Promise<number>;
+  /** How many sessions the participant had in the study before this one; null for who may not list all of them. */
+  earlier: (session: InStudy) => Promise<number | null>;
 }
 
 /** A session of a study, as far as this matters. */

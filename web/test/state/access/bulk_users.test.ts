@@ -3,6 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { BulkUsers } from '../../../src/state/access/bulk_users';
 import { checkUsers, generatedPassword } from '../../../src/state/access/user_rows';
 import { bulkUsersText as words } from '../../../src/text/bulk_users_text';
+import { ApiError } from '../../../src/wire/rest';
 import type { NewUser } from '../../../src/wire/rest_types';
 
 describe('a table of users', () => {
@@ -11,13 +12,17 @@ describe('a table of users', () => {
     expect(rows).toEqual([
       { line: 2, name: 'anna', displayName: 'Doe; Anna', role: 'trainee', password: '', fault: null, exists: false },
     ]);
-    const tabbed = checkUsers('name\trole\tpassword\nanna\ttrainee\tlong enough 1\n', []);
-    expect(tabbed.rows[0]).toMatchObject({ password: 'long enough 1' });
+    const tabs = 'name\trole\tpassword\nanna\ttrainee\tlong enough 1\n';
+    expect(checkUsers(tabs, []).rows[0]).toMatchObject({ password: 'long enough 1' });
     expect(checkUsers(words.example, []).rows.map(({ fault }) => fault)).toEqual([null, null]);
     expect(checkUsers('  \n', [])).toEqual({ rows: [], fault: null });
   });
 
-  it('needs names and roles', () => {
+  it('needs names and roles, and no column that is not known', () => {
+    expect(checkUsers('anna,trainee,Anna Example', [])).toEqual({ rows: [], fault: words.noColumn });
+    expect(checkUsers('name,role,team\nanna,trainee,A', []).fault).toBe(words.unknownColumn('team'));
+    expect(checkUsers('name,role\nz\uFFFDe,trainee', []).fault).toBe(words.noUnicode);
+    expect(checkUsers('name,role\n=anna,trainee', []).rows[0]?.fault).toBe(words.badStart);
     expect(checkUsers('name,password\nanna,long enough 1', []).fault).toBe(words.noColumn);
   });
 
@@ -61,8 +66,8 @@ describe('many users', () => {
   const three = 'name,role,password\nanna,trainee\nben,trainee\ncarl,instructor,long enough 1';
 
   it('are made one by one; what fails can be tried again, and passwords stay', async () => {
-    let made = 0;
-    const bulk = new BulkUsers(() => `secret words ${++made}`);
+    let drawn = 0;
+    const bulk = new BulkUsers(() => (++drawn > 0 ? 'secret words' : ''));
     bulk.write(three);
     const asked: NewUser[] = [];
     let refused = 'ben';
@@ -82,10 +87,21 @@ describe('many users', () => {
     refused = '';
     await bulk.create(add);
     expect(asked).toHaveLength(4);
-    expect(asked[3]?.password).toBe('secret words 2');
+    expect(drawn).toBe(2);
     expect(bulk.open.value).toEqual([]);
+    expect(bulk.unsaved.value).toBe(true);
+    bulk.noteCopied();
+    expect(bulk.unsaved.value).toBe(false);
     bulk.write('');
     expect(bulk.generated.value.map(({ name }) => name)).toEqual(['anna', 'ben']);
+  });
+
+  it('that are there after a failed try need a new password', async () => {
+    const bulk = new BulkUsers(() => 'secret words');
+    bulk.write('name,role\nanna,trainee');
+    await bulk.create(() => Promise.reject(new ApiError('no answer', 0)));
+    await bulk.create(() => Promise.reject(new ApiError('exists', 409)));
+    expect(bulk.outcomes.value.get(2)).toEqual({ created: false, reason: words.thereAfterAll });
   });
 
   it('are not made while a line is wrong', async () => {

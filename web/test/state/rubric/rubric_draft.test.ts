@@ -49,6 +49,11 @@ describe('a rubric while it is edited', () => {
     draft.take({ id: 'ours', version: 4, versions: [3, 4], rubric });
     expect(draft.changed.value).toBe(false);
     expect(draft.rubric.value).toMatchObject({ version: 4, pass_points: 70 });
+    const sent = draft.content.value;
+    draft.set({ passPoints: '75' });
+    draft.take({ id: 'ours', version: 5, versions: [4, 5], rubric }, sent);
+    expect(draft.changed.value).toBe(true);
+    expect(draft.rubric.value).toMatchObject({ version: 5, pass_points: 75 });
   });
 
   it('keeps what was typed while it was being saved', () => {
@@ -78,6 +83,13 @@ describe('a rubric while it is edited', () => {
     expect(draft.rubric.value).toBeNull();
     draft.set({ name: 'Ours', passPoints: '', leastMeasured: '50' });
     const key = draft.add('duration_s');
+    expect(faultsAt(draft)).toEqual(['criteria/1/curve/0/at', 'criteria/1/curve/1/at']);
+    draft.change(key, {
+      curve: [
+        { at: '1e999', points: '0' },
+        { at: '', points: '100' },
+      ],
+    });
     expect(faultsAt(draft)).toEqual(['criteria/1/curve/0/at', 'criteria/1/curve/1/at']);
     draft.change(key, { points: 'limits', curve: [], critical: true });
     expect(faultsAt(draft)).toEqual(['criteria/1/critical', 'criteria/1/points']);

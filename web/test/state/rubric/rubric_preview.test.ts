@@ -28,12 +28,16 @@ it('follows session and rubric; of two answers the later question counts', async
   draft.value = null;
   expect(preview.stale.value).toBe(true);
   expect(preview.score.value?.points).toBe(2);
+  draft.value = rubric('C');
+  await vi.waitFor(() => expect(asked).toHaveLength(3));
   preview.session.value = 's2';
   expect(preview.score.value).toBeNull();
-  preview.session.value = '';
+  asked[2]?.answer({ points: 3 } as Score);
+  await vi.waitFor(() => expect(asked).toHaveLength(4));
   expect(preview.score.value).toBeNull();
+  preview.session.value = '';
   end();
-  expect(asked).toHaveLength(2);
+  expect(asked).toHaveLength(4);
 });
 
 it('says why there is none', async () => {
@@ -41,5 +45,7 @@ it('says why there is none', async () => {
   preview.session.value = 's1';
   const end = preview.follow(() => rubric('A'));
   await vi.waitFor(() => expect(preview.problem.value).toBe('gone'));
+  preview.session.value = 's2';
+  expect(preview.problem.value).toBeNull();
   end();
 });

@@ -27,15 +27,16 @@ describe('a questionnaire while it is written', () => {
   it('takes nothing else', () => {
     for (const other of [null, 7, [], {}, { id: 'a', title: 'b', items: [{ kind: 'text' }] }])
       expect(() => draft.load(other)).toThrow(words.notOne);
-    const choice = (options: unknown) => ({ id: 'q', kind: 'choice', words: 'Why?', options });
-    for (const item of [
-      choice(['Yes', 'No']),
-      choice([null]),
-      choice([{ id: 'a' }]),
-      { id: 'q', kind: 'likert', words: 'Why?', low: 5 },
-      null,
-    ])
-      expect(() => draft.load({ id: 'a', title: 'b', items: [item] })).toThrow(words.notOne);
+    const broken = [
+      { kind: 'choice', options: ['Yes', 'No'] },
+      { kind: 'choice', options: [null] },
+      { kind: 'likert', low: 5 },
+      { kind: 'text', section: 1 },
+    ];
+    for (const item of broken)
+      expect(() => draft.load({ id: 'a', title: 'b', items: [{ id: 'q1', words: 'c', ...item }] })).toThrow(
+        words.notOne,
+      );
     expect(draft.items.value).toEqual([]);
   });
 

@@ -10,7 +10,7 @@ const inStudy = (id: string, changes = {}) => someSession({ id, study: 'st1', pa
 function place() {
   const store = new Store();
   const study = vi.fn(() => Promise.resolve({ name: 'First year' }));
-  const earlier = vi.fn(() => Promise.resolve(1));
+  const earlier = vi.fn((): Promise<number | null> => Promise.resolve(1));
   const line = new StudyLine({ store, study, earlier });
   const watch = (session = inStudy('a')) => {
     store.sessionId.value = session.id;
@@ -41,6 +41,14 @@ describe('The line about a study', () => {
     expect(line.now.value).toEqual({ session: 'a', name: null, participant: 'P03', attempt: null });
     watch(someSession({ id: 'b' }));
     expect(line.now.value).toBeNull();
+  });
+
+  it('has no attempt for who may not list the sessions', async () => {
+    const { line, watch, earlier } = place();
+    earlier.mockResolvedValue(null);
+    watch();
+    await settle();
+    expect(line.now.value).toMatchObject({ name: 'First year', attempt: null });
   });
 
   it('is none of a replay', async () => {
