@@ -58,17 +58,6 @@ export class RubricDraft {
     this.refused.value = new Map();
   }
 
-  /** What was sent is saved; what was changed meanwhile stays, and is not. */
-  taken(sent: Rubric, kept: KeptRubric): void {
-    if (this.rubric.peek() === sent) {
-      this.take(kept);
-      return;
-    }
-    const now = this.content.value;
-    this.take(kept);
-    this.content.value = now;
-  }
-
   set(change: Partial<Content>): void {
     this.content.value = { ...this.content.value, ...change };
     this.refused.value = new Map();

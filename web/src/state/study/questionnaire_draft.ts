@@ -121,12 +121,10 @@ type Loaded = Pick<Questionnaire, 'id' | 'title'> & {
 };
 
 /** Enough of one to be shown; the rest is said beside the fields, or by the server. */
-const isText = (value: unknown): value is string => typeof value === 'string';
-const isTextOrNone = (value: unknown): boolean => value === undefined || isText(value);
-
 function isQuestionnaire(value: unknown): value is Loaded {
-  const { id, title, items } = (value ?? {}) as Record<string, unknown>;
-  if (typeof id !== 'string' || typeof title !== 'string' || !Array.isArray(items)) return false;
+  const { id, title, introduction, items } = (value ?? {}) as Record<string, unknown>;
+  if (typeof id !== 'string' || typeof title !== 'string' || !isWords(introduction) || !Array.isArray(items))
+    return false;
   return items.every((item: unknown) => {
     const { id, kind, words, options, section, low, middle, high } = (item ?? {}) as Record<string, unknown>;
     const known = typeof id === 'string' && typeof words === 'string' && [section, low, middle, high].every(isWords);
