@@ -21,7 +21,7 @@ using nlohmann::json;
 
 /// Set: every call fails in its turn, which takes an hour. Else some do.
 constexpr const char* every_fault_variable = "REAM_EVERY_DISK_FAULT";
-constexpr int some_faults = 3;
+constexpr int some_faults = 2;
 
 /// A disk fails once, in any call: the command says so in one line and leaves nothing half made, or it has
 /// done all.
