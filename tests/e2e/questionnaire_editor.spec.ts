@@ -20,6 +20,7 @@ test('a questionnaire is written, previewed, and asked by the study that is made
   await expect(page.getByTestId('words-1')).toBeFocused();
   await page.keyboard.type('It felt real.');
   await page.getByTestId('add-choice').press('Enter');
+  await expect(page.getByTestId('words-2')).toBeFocused();
   await page.keyboard.type('What was hardest?');
   await page.getByTestId('option-o1').fill('The axis');
   await expect(page.getByTestId('questionnaire-faults')).toContainText('1 field');

@@ -5,7 +5,15 @@ export const post = <T = { id: string }>(page: Page, path: string, body?: object
 export const remove = (page: Page, path: string) => call<null>(page, 'DELETE', path);
 export const patch = <T>(page: Page, path: string, body: object) => call<T>(page, 'PATCH', path, body);
 
+/** Who has just sent name and password is known a moment later. */
+async function untilKnown(page: Page): Promise<void> {
+  const login = new URL('/api/v1/login', page.url()).href;
+  const role = async () => ((await (await page.request.get(login)).json()) as { role: string | null }).role;
+  await expect.poll(role, { timeout: 60_000 }).not.toBeNull();
+}
+
 async function call<T>(page: Page, method: string, path: string, body?: object): Promise<T> {
+  await untilKnown(page);
   return (await page.evaluate(
     async ([method, to, data]) => {
       const visitor = (await (await fetch('/api/v1/login')).json()) as { csrf_token: string | null };

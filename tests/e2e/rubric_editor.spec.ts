@@ -81,6 +81,7 @@ test('a benchmark is made of sessions of experts', async ({ page }) => {
   test.setTimeout(240_000);
   await page.goto(`${here.server.url}/#/sessions`);
   await logIn(page, olga.name);
+  await expect(page.getByTestId('no-sessions')).toBeVisible();
   const session = await startDemo(page, here.server.url);
   await assignSession(page, session, tom);
   await untilFinished(page, session);

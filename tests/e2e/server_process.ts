@@ -25,10 +25,13 @@ export class ServerProcess {
   url = '';
 
   private readonly dataFolder: string;
+  /** What computes is not seen on the page, and to try all that there is takes seconds. */
+  private readonly backend: 'auto' | 'cpu';
 
   /** The data folder goes away with it. One of its own has the demo case already: making it takes seconds. */
   constructor(dataFolder?: string) {
     this.dataFolder = dataFolder ?? mkdtempSync(join(tmpdir(), 'ream-e2e-'));
+    this.backend = dataFolder === undefined ? 'cpu' : 'auto';
     const kept = process.env[keptDemoVariable];
     if (dataFolder === undefined && kept !== undefined) cpSync(kept, this.dataFolder, { recursive: true });
   }
@@ -50,9 +53,8 @@ export class ServerProcess {
   /** Starts it, on the port it had before where there was one, and waits until it names its URL. */
   async start(): Promise<void> {
     const port = this.url === '' ? '0' : new URL(this.url).port;
-    const child = spawn(program, ['serve', '--port', port, '--data', this.dataFolder, '--json'], {
-      stdio: ['ignore', 'pipe', 'inherit'],
-    });
+    const args = ['serve', '--port', port, '--data', this.dataFolder, '--backend', this.backend, '--json'];
+    const child = spawn(program, args, { stdio: ['ignore', 'pipe', 'inherit'] });
     this.child = child;
     this.url = await new Promise<string>((found, failed) => {
       child.once('error', failed);
