@@ -8,7 +8,8 @@ export default defineConfig({
   timeout: 180_000,
   // What is waited for comes late on a busy machine.
   expect: { timeout: 20_000 },
-  workers: 2,
+  // Drawing in software takes every processor: of two browsers at once each test takes more than twice as long.
+  workers: 1,
   // A test that passes at the second try has found a fault.
   retries: 0,
   reporter: [['list']],

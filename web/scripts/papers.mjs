@@ -1,5 +1,6 @@
-// Renders README and the papers that it leads to as pages: node scripts/papers.mjs FOLDER [--apart]
+// Renders README and the papers that it leads to as pages: node scripts/papers.mjs FOLDER [--apart] [--of REPOSITORY]
 //   --apart: the pages stand without the program, so that none leads to it
+//   --of: papers of another place than this repository
 // Pages need no script. A link to another paper leads to its page, pictures are copied, and what is no paper is not linked.
 import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join, normalize, resolve } from 'node:path';
@@ -7,8 +8,9 @@ import { fileURLToPath } from 'node:url';
 
 import { Marked } from 'marked';
 
-const repository = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
+const here = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
 const [folder, ...options] = process.argv.slice(2);
+const repository = options.includes('--of') ? resolve(options[options.indexOf('--of') + 1] ?? '') : here;
 if (folder === undefined) {
   console.error('usage: node scripts/papers.mjs FOLDER [--apart]');
   process.exit(2);
@@ -18,12 +20,16 @@ const apart = options.includes('--apart');
 const escaped = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('"', '&quot;');
 const isElsewhere = (target) => /^[a-z]+:/.test(target);
 
-/** Name of a paper's page; that of README.md is readme.html, as the list of all papers is index.html. */
+/**
+ * Name of a paper's page; that of README.md is readme.html, as the list of all papers is index.html, and that of
+ * CHANGELOG.md changes.html, as a changelog.html in a package would have to be Debian's own.
+ */
 const pageOf = (paper) =>
   `${paper
     .replace(/^(docs|server|proto)\//, '')
     .replace(/\/README\.md$/, '')
     .replace(/\.md$/, '')
+    .replace('CHANGELOG', 'changes')
     .replaceAll('/', '-')
     .toLowerCase()}.html`;
 
@@ -113,9 +119,23 @@ function rulesFor(paper, contents) {
   };
 }
 
+/** Refuses a table with a row of more or fewer cells than its heading: more would be left out without a word. */
+function requireEvenTable(paper, { raw }) {
+  const rows = raw.trim().split('\n');
+  const cells = (row) =>
+    row
+      .trim()
+      .replace(/^\||(?<!\\)\|$/g, '')
+      .split(/(?<!\\)\|/).length;
+  const uneven = rows.find((row) => cells(row) !== cells(rows[0]));
+  if (uneven !== undefined)
+    throw new Error(`${paper}: a row has ${cells(uneven)} cells, its table's heading ${cells(rows[0])}: ${uneven}`);
+}
+
 function rendered(paper, text) {
   const contents = [];
-  const marked = new Marked({ gfm: true, renderer: rulesFor(paper, contents) });
+  const walkTokens = (token) => token.type === 'table' && requireEvenTable(paper, token);
+  const marked = new Marked({ gfm: true, renderer: rulesFor(paper, contents), walkTokens });
   const body = marked
     .parse(text)
     .replaceAll('<table>', '<div class="table" tabindex="0"><table>')
@@ -155,6 +175,7 @@ ${body.replace('</h1>\n', (end) => end + contentsOf(contents))}</main>
 <nav id="papers" class="papers" aria-label="All guides">
 <h2>All guides</h2>
 <ul>${papers.map(listItem(here)).join('')}</ul>
+${apart ? '' : '<p><a href="../third-party.txt">Licences of included software</a></p>'}
 </nav>
 </div>
 </body>
@@ -163,7 +184,7 @@ ${body.replace('</h1>\n', (end) => end + contentsOf(contents))}</main>
 
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
-copyFileSync(join(repository, 'packaging/papers.css'), join(folder, 'papers.css'));
+copyFileSync(join(here, 'packaging/papers.css'), join(folder, 'papers.css'));
 writeFileSync(join(folder, 'index.html'), page(null, 'Guides', rendered('README.md', `# Guides\n${byRole()}`)));
 // Whoever asks for the folder without a stroke behind its name.
 if (!apart)

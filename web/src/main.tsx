@@ -57,7 +57,7 @@ function main(root: HTMLElement): void {
   const route = signal(routeInAddress(window.location.hash));
   const scene = new BoneScene();
   const api = new Api(window.location.origin);
-  const watcher = new Watcher(store, api, new WorkerStreamSocket(), scene, {
+  const watcher = new Watcher(store, api, new WorkerStreamSocket(scene.inSoftware), scene, {
     makesSession: () => !identity.hasUsers.value,
   });
   const practiceStore = new PracticeStore(store);
@@ -257,6 +257,13 @@ function measureLatency(store: Store, practice: PracticeStore, scene: BoneScene)
     if (telemetry?.receivedMs === undefined || !store.live.peek()) return;
     latency.drawn(telemetry.tick, telemetry.receivedMs, clockMs());
   };
+  store.telemetry.subscribe((telemetry) => {
+    if (telemetry === null) return;
+    // Once the scene has followed the same message.
+    queueMicrotask(() => {
+      if (!scene.waitsToDraw) latency.shows(telemetry.tick);
+    });
+  });
   setInterval(() => latency.publish(clockMs()), publishLatencyMs);
   return latency;
 }

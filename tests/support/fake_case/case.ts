@@ -139,6 +139,21 @@ export class FakeCase {
     };
     return assessment;
   }
+
+  /** The deeper, the more is gone, and the better the implant sits. */
+  outcome(plan: Record<string, unknown>): object {
+    const depth = plan.depth_mm as number;
+    return {
+      footprint_area_mm2: 500,
+      depth_mean_mm: depth,
+      medialization_mm: depth,
+      seating_percent: Math.min(100, 40 * depth),
+      plate_preserved_percent: Math.max(0, 100 - 30 * depth),
+      joint_line_mm: 4 - depth,
+      vault_distance_component_mm: 3 - depth,
+      parts_through_vault: depth > 3 ? 1 : 0,
+    };
+  }
 }
 
 export { headTruth, truth };

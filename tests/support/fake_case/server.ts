@@ -159,6 +159,8 @@ export class FakeCaseServer {
         return ok(one.measures());
       case 'POST plan/proposal':
         return ok(one.propose(body));
+      case 'POST plan/assessment':
+        return ok({ assessment: one.assess(body), outcome: one.outcome(body) });
       case 'PUT plan': {
         const assessment = one.assess(body);
         if (assessment.needs_override)

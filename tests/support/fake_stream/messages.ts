@@ -70,7 +70,7 @@ export function helloMessage(options: HelloOptions): Uint8Array {
   Hello.addPlannedDepthMm(b, plannedDepthMm);
   Hello.addForceScale(b, options.forceScale);
   Hello.addForceMaxN(b, 3.3);
-  return finish(b, Body.Hello, Hello.endHello(b));
+  return serverMessage(b, Body.Hello, Hello.endHello(b));
 }
 
 export interface RevisedBlock {
@@ -105,7 +105,7 @@ export function meshMessage(blocks: RevisedBlock[], tick: number, keyComplete: b
   MeshDelta.startMeshDelta(b);
   MeshDelta.addBlocks(b, vector);
   MeshDelta.addKeyComplete(b, keyComplete);
-  return finish(b, Body.MeshDelta, MeshDelta.endMeshDelta(b));
+  return serverMessage(b, Body.MeshDelta, MeshDelta.endMeshDelta(b));
 }
 
 export function telemetryMessage(m: Moment): Uint8Array {
@@ -130,7 +130,7 @@ export function telemetryMessage(m: Moment): Uint8Array {
   Telemetry.addCorticalShare(b, 0.4);
   Telemetry.addTickMeanUs(b, 184);
   Telemetry.addTickP99Us(b, 391);
-  return finish(b, Body.Telemetry, Telemetry.endTelemetry(b));
+  return serverMessage(b, Body.Telemetry, Telemetry.endTelemetry(b));
 }
 
 function inWorld([x, y, z]: Point): Point {
@@ -143,7 +143,8 @@ function bytesVector(b: Builder, bytes: Uint8Array): number {
   return b.endVector();
 }
 
-function finish(b: Builder, type: Body, body: number): Uint8Array {
+/** The bytes of a message with this body, which was built last. */
+export function serverMessage(b: Builder, type: Body, body: number): Uint8Array {
   ServerMessage.startServerMessage(b);
   ServerMessage.addBodyType(b, type);
   ServerMessage.addBody(b, body);

@@ -19,6 +19,11 @@ export class FrameRequest {
     private readonly frames = 1,
   ) {}
 
+  /** Something is asked for and not drawn yet. */
+  get isWaiting(): boolean {
+    return pending.has(this);
+  }
+
   request(): void {
     clearTimeout(this.timer);
     if (this.frame !== null || this.disposed) return;

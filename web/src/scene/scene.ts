@@ -20,6 +20,7 @@ import { type Hello, isTwoPlates, type MeshDelta, type Pose, type ToolMesh } fro
 import type { Surface } from '../wire/ply';
 import { AimView } from './aim_view';
 import { BoneView, type BoneReplacement } from './bone_view';
+import { MovingParts } from './moving_parts';
 import { OrbitCamera, type ViewName } from './orbit_camera';
 import { PictureQuality } from './picture_quality';
 import { watchContext } from './context_watch';
@@ -55,6 +56,9 @@ export class BoneScene implements SteeredView {
   private readonly field = new OperativeField();
   private readonly tool = new ToolView(window.matchMedia('(prefers-reduced-motion: reduce)'));
   private toolMoves = false;
+  private readonly parts = new MovingParts();
+  /** Whether pictures are drawn by the computer's processor, by the triangle. */
+  readonly inSoftware = drawsInSoftware();
   private readonly aim = new AimView();
   private readonly lights: OperatingLights;
   private readonly orbit: OrbitCamera;
@@ -76,9 +80,8 @@ export class BoneScene implements SteeredView {
 
   /** Throws where the browser offers no WebGL. */
   constructor() {
-    const software = drawsInSoftware();
-    this.quality = new PictureQuality(software);
-    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !software, alpha: true });
+    this.quality = new PictureQuality(this.inSoftware);
+    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !this.inSoftware, alpha: true });
     this.renderer.toneMapping = NeutralToneMapping;
     this.renderer.toneMappingExposure = 1.05;
     this.renderer.localClippingEnabled = true;
@@ -107,6 +110,10 @@ export class BoneScene implements SteeredView {
 
   get framesDrawn(): number {
     return this.drawn;
+  }
+  /** Something has changed since the last picture. */
+  get waitsToDraw(): boolean {
+    return this.drawing.isWaiting;
   }
   get blockCount(): number {
     return this.bone.blockCount;
@@ -167,6 +174,7 @@ export class BoneScene implements SteeredView {
   /** A new connection's picture begins. The view stays as the viewer left it unless the case is another. */
   begin(hello: Hello): void {
     this.bone.begin(hello);
+    this.parts.forget();
     this.setTool(hello.tool);
     this.orbit.setPlan(hello);
     this.plan = new PlanFrame(hello);
@@ -191,12 +199,14 @@ export class BoneScene implements SteeredView {
 
   /** Another reamer from here on; drawn once its pose is known. */
   setTool(tool: ToolMesh): void {
+    this.parts.forget();
     this.tool.setMesh(tool);
     this.bone.paint.setTool(tool);
     this.invalidate();
   }
 
   setToolPose(pose: Pose | null): void {
+    if (!this.parts.toolMoved(pose)) return;
     this.toolPose = pose;
     this.tool.setPose(pose);
     this.bone.paint.setToolPose(pose);
@@ -206,6 +216,7 @@ export class BoneScene implements SteeredView {
 
   /** Tool and bone come with the same message, so that they are drawn as they were at one moment. */
   setBonePose(worldFromBoneRest: Pose | null): void {
+    if (!this.parts.boneMoved(worldFromBoneRest)) return;
     this.bone.setPose(worldFromBoneRest);
     this.extras.position.copy(this.bone.group.position);
     this.extras.quaternion.copy(this.bone.group.quaternion);
@@ -214,6 +225,7 @@ export class BoneScene implements SteeredView {
 
   /** Whether the reamer presses on bone now. */
   setTouching(touching: boolean): void {
+    if (!this.parts.touchingChanged(touching)) return;
     this.bone.paint.setTouching(touching);
     this.invalidate();
   }
@@ -221,7 +233,8 @@ export class BoneScene implements SteeredView {
   /** What the reamer does; null: it rests. */
   setToolAction(action: ToolAction | null): void {
     this.tool.setAction(action);
-    this.invalidate();
+    // Water runs on where nothing else changes.
+    if (this.parts.actionChanged(action) || action?.irrigating === true) this.invalidate();
   }
 
   setToolShown(shown: boolean): void {

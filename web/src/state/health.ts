@@ -63,7 +63,9 @@ function whatIsLost(store: Store, practice: PracticeStore): HealthCause | null {
 
 function whatIsSlow(store: Store, practice: PracticeStore, slowPicture: boolean): HealthCause | null {
   if (store.farBehind.value) return 'network';
-  if (store.active.value && isLate(missedHere(store))) return 'server';
+  // What has ended cannot be late.
+  if (!store.active.value) return null;
+  if (isLate(missedHere(store))) return 'server';
   if (!slowPicture || store.replaying.value) return null;
   const awayMs = practice.steering.value ? (practice.feedback.value?.rttMs ?? 0) : store.reading.value.behindMs;
   return awayMs > slowFromMs / 2 ? 'network' : 'picture';

@@ -68,6 +68,11 @@ export class Latency {
     this.drawing.add(nowMs - receivedMs, nowMs);
     // The oldest of them has waited longest for this picture; the others are shown by it as well.
     for (const { sentMs } of this.waiting.filter((sample) => sample.tick <= tick)) this.hand.add(nowMs - sentMs, nowMs);
+    this.shows(tick);
+  }
+
+  /** The picture that is there is of this tick, too, as its message changed nothing: nothing waits for it any more. */
+  shows(tick: number): void {
     this.waiting = this.waiting.filter((sample) => sample.tick > tick);
   }
 

@@ -239,7 +239,7 @@ export const caseText = {
     intermediate_version_deg: 'Line between the edges',
     between_deg: 'Angle between the two',
   } as Readonly<Record<string, string>>,
-  percentValue: (percent: string) => `${percent}`,
+  percentValue: (percent: string) => `${percent} %`,
   retroversion: (degrees: string) => `${degrees}° retroversion`,
   anteversion: (degrees: string) => `${degrees}° anteversion`,
   superior: (degrees: string) => `${degrees}° superior`,
@@ -284,7 +284,26 @@ export const caseText = {
   after: 'After reaming',
   planKept: 'Saved plan',
   planDraft: 'Not saved',
-  planChanged: 'The plan has changed, so the values below are out of date. Save the plan to update them.',
+  planPredicting: 'Predicting the result…',
+  planNotPredicted: (why: string) => `The result cannot be predicted: ${why}`,
+  planResult: 'Predicted result',
+  planResultHint: 'These values apply if the plan is followed exactly.',
+  outcomeSeating: 'Seating',
+  outcomePlate: 'Subchondral plate preserved',
+  outcomeRemoved: 'Removed from the face',
+  outcomeMedialization: 'Medialization',
+  outcomeJointLine: 'Joint line',
+  outcomeLateral: (mm: string) => `${mm} mm lateral`,
+  outcomeMedial: (mm: string) => `${mm} mm medial`,
+  outcomeNative: 'as the native one',
+  outcomeVault: 'Implant to outer cortex',
+  outcomeOutside: (mm: string) => `${mm} mm outside the bone`,
+  outcomeNoTouch: 'The reamer does not touch the glenoid face at this depth.',
+  outcomeNoSeat: 'No bone is left for the implant to sit on.',
+  outcomeThrough: (parts: number) =>
+    parts === 1
+      ? 'A peg or keel of the implant perforates the vault.'
+      : `${parts} pegs of the implant perforate the vault.`,
   planOutdated: 'The landmarks have changed since this plan was saved. Suggest again, or save the plan unchanged.',
   keepPlan: 'Save plan',
   overrideTitle: 'This is more correction than recommended',
@@ -317,5 +336,5 @@ export const caseText = {
 
   mm: 'mm',
   hu: 'HU',
-  fixed: (text: string, unit: string) => `${text} ${unit}`,
+  fixed: (text: string, unit: string) => (unit === '°' ? `${text}°` : `${text} ${unit}`),
 };

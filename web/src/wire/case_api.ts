@@ -10,6 +10,7 @@ import type {
   Measures,
   NewCase,
   NewPlan,
+  PlanPrediction,
   PlanTargets,
   Reamer,
   SegmentationSettings,
@@ -113,6 +114,9 @@ export class CaseApi {
   }
   putPlan(id: string, body: NewPlan): Promise<AssessedPlan> {
     return this.rest.json('put', '/api/v1/cases/{id}/plan', { path: { id }, body });
+  }
+  assessPlan(id: string, body: NewPlan): Promise<PlanPrediction> {
+    return this.rest.json('post', '/api/v1/cases/{id}/plan/assessment', { path: { id }, body });
   }
   async reamers(): Promise<Reamer[]> {
     return (await this.rest.json('get', '/api/v1/reamers', {})).reamers;

@@ -9,11 +9,15 @@ import { Telemetry as WireTelemetry } from './generated/ream/wire/telemetry';
 import { ToolChange } from './generated/ream/wire/tool-change';
 import type { Hello, MeshDelta, ScapulaPoints, StreamMessage, ToolMesh } from './messages';
 import { pose, triple, type Triple } from './pose';
+import { simplifiedSurface } from './simplified_surface';
 import { decodeTelemetry } from './telemetry';
 
 /** Decodes one connection's messages in order; the first must be the hello. Throws on anything else. */
 export class StreamDecoder {
   private voxelSpacingMm: Triple | null = null;
+
+  /** `simplifies`: whether surfaces come of fewer triangles (simplified_surface). */
+  constructor(private readonly simplifies = false) {}
 
   decode(bytes: Uint8Array): StreamMessage {
     const message = ServerMessage.getRootAsServerMessage(new ByteBuffer(bytes));
@@ -26,7 +30,7 @@ export class StreamDecoder {
     if (this.voxelSpacingMm === null) throw new Error('the stream did not begin with a hello');
     if (type === Body.MeshDelta) {
       const delta = requireTable(message.body(new WireMeshDelta()) as WireMeshDelta | null);
-      return { kind: 'mesh', mesh: decodeMesh(delta, this.voxelSpacingMm) };
+      return { kind: 'mesh', mesh: this.simpler(decodeMesh(delta, this.voxelSpacingMm), this.voxelSpacingMm) };
     }
     if (type === Body.Telemetry) {
       const telemetry = requireTable(message.body(new WireTelemetry()) as WireTelemetry | null);
@@ -36,6 +40,11 @@ export class StreamDecoder {
       return { kind: 'tool', tool: decodeTool(requireTable(message.body(new ToolChange()) as ToolChange | null)) };
     }
     throw new Error(`message of unknown type ${String(type)}`);
+  }
+
+  private simpler(mesh: MeshDelta, voxelSpacingMm: Triple): MeshDelta {
+    if (!this.simplifies) return mesh;
+    return { ...mesh, blocks: mesh.blocks.map((block) => simplifiedSurface(block, voxelSpacingMm)) };
   }
 }
 

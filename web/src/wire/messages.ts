@@ -85,7 +85,7 @@ export type StreamMessage =
   | { kind: 'tool'; tool: ToolMesh };
 
 /** Page to worker. Each `open` closes what was open before; `connection` numbers the answers. */
-export type WorkerRequest = { kind: 'open'; connection: number; url: string } | { kind: 'close' };
+export type WorkerRequest = { kind: 'open'; connection: number; url: string; simplifies: boolean } | { kind: 'close' };
 
 /** Worker to page. `closed` comes once per opened connection that was not closed by request. */
 export type WorkerReport =

@@ -54,6 +54,8 @@ export type {
   Participant,
   Plan,
   PlanAssessment,
+  PlanOutcome,
+  PlanPrediction,
   PlanTargets,
   PlateName,
   PlaybackChange,

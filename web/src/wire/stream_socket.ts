@@ -18,7 +18,8 @@ export class WorkerStreamSocket implements StreamSocket {
   private connection = 0;
   private handlers: StreamHandlers | null = null;
 
-  constructor() {
+  /** `simplifies`: whether surfaces come of fewer triangles, as drawing in software wants them (simplified_surface). */
+  constructor(private readonly simplifies: boolean) {
     this.worker.onmessage = (event: MessageEvent<WorkerReport>) => {
       const report = event.data;
       if (report.connection !== this.connection || this.handlers === null) return;
@@ -34,7 +35,7 @@ export class WorkerStreamSocket implements StreamSocket {
 
   open(url: string, handlers: StreamHandlers): void {
     this.handlers = handlers;
-    this.send({ kind: 'open', connection: ++this.connection, url });
+    this.send({ kind: 'open', connection: ++this.connection, url, simplifies: this.simplifies });
   }
 
   close(): void {

@@ -2,11 +2,16 @@
 import { StreamDecoder, transferables } from './decode';
 import { meshDecoderReady } from './decode_block';
 import type { WorkerReport, WorkerRequest } from './messages';
+import { simplifierReady } from './simplified_surface';
 
 // The DOM's typing of `self` is a window's; a worker's postMessage takes the transfer list in second place.
 const page = self as unknown as { postMessage(report: WorkerReport, transfer: ArrayBuffer[]): void };
 
+type OpenRequest = Extract<WorkerRequest, { kind: 'open' }>;
+
 let socket: WebSocket | null = null;
+/** The newest request, while it is to be opened or is open. */
+let wanted: OpenRequest | null = null;
 
 function drop(): void {
   if (socket === null) return;
@@ -16,9 +21,8 @@ function drop(): void {
   socket = null;
 }
 
-function open(connection: number, url: string): void {
-  drop();
-  const decoder = new StreamDecoder();
+function open({ connection, url, simplifies }: OpenRequest): void {
+  const decoder = new StreamDecoder(simplifies);
   const opened = new WebSocket(url);
   socket = opened;
   opened.binaryType = 'arraybuffer';
@@ -40,8 +44,21 @@ function open(connection: number, url: string): void {
   };
 }
 
+async function openWhenReady(request: OpenRequest): Promise<void> {
+  const { connection } = request;
+  try {
+    await meshDecoderReady;
+    if (request.simplifies) await simplifierReady;
+    if (wanted === request) open(request);
+  } catch (error) {
+    const reason = `this browser cannot read the stream: ${error instanceof Error ? error.message : String(error)}`;
+    if (wanted === request) page.postMessage({ kind: 'closed', connection, reason }, []);
+  }
+}
+
 self.onmessage = (event: MessageEvent<WorkerRequest>) => {
   const request = event.data;
-  if (request.kind === 'close') drop();
-  else void meshDecoderReady.then(() => open(request.connection, request.url));
+  drop();
+  wanted = request.kind === 'open' ? request : null;
+  if (request.kind === 'open') void openWhenReady(request);
 };

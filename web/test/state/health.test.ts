@@ -64,6 +64,9 @@ describe('the simulator’s health', () => {
       return said(health.value);
     };
     expect([at(99), at(101), at(90), at(79), at(90)]).toEqual(['ok', 'slow picture', 'slow picture', 'ok', 'ok']);
+    expect(at(101)).toBe('slow picture');
+    store.sessionState.value = 'finished';
+    expect(said(health.value)).toBe('ok');
     store.behindMs.value = 2000;
     expect(said(health.value)).toBe('slow network');
   });

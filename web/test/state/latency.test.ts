@@ -37,6 +37,20 @@ describe('the latency of the picture', () => {
     expect(latency.drawingMs.value).toBe(6);
   });
 
+  it('does not count the rest of a hand for which nothing had to be drawn', () => {
+    const latency = new Latency();
+    for (let i = 0; i < 500; ++i) {
+      latency.taken({ sentMs: i * 10, tick: i * 10 });
+      latency.shows(i * 10);
+    }
+    for (let i = 500; i < 520; ++i) {
+      latency.taken({ sentMs: i * 10, tick: i * 10 });
+      latency.drawn(i * 10, i * 10 + 5, i * 10 + 30);
+    }
+    latency.publish(5200);
+    expect(latency.handMs.value).toBe(30);
+  });
+
   it('counts a picture of a tick once', () => {
     const latency = new Latency();
     for (let i = 0; i < 40; ++i) latency.drawn(5, 0, i * 10);

@@ -3,6 +3,8 @@ import { describe, expect, it } from 'vitest';
 import { isPageLost, sessionChoices } from '../../src/state/session_choices';
 import { appText } from '../../src/text/app_text';
 import { liveText } from '../../src/text/live_text';
+import { resultText } from '../../src/text/result_text';
+import { tutorialText } from '../../src/text/tutorial_text';
 import type { Session } from '../../src/wire/rest_types';
 
 describe('what can be done with a session', () => {
@@ -36,6 +38,12 @@ describe('what can be done with a session', () => {
     expect(isPageLost({ device: { name: 'browser', state: 'lost' } as Session['device'] })).toBe(true);
     expect(isPageLost({ device: { name: 'haply', state: 'lost' } as Session['device'] })).toBe(false);
     expect(isPageLost({ device: { name: 'browser', state: 'fresh' } as Session['device'] })).toBe(false);
+  });
+
+  it('is named alike wherever a new session on intact bone begins', () => {
+    expect([appText.resetSession, appText.resetYes, resultText.startAgain, tutorialText.again]).toEqual(
+      Array<string>(4).fill('Start again'),
+    );
   });
 
   it('is named by what a press does', () => {

@@ -5,13 +5,13 @@ import { dirname, join, normalize, relative } from 'node:path';
 export const repository = new URL('../../../', import.meta.url).pathname;
 const root = repository;
 
-/** Names of all papers, from the root. */
+/** Names of all papers, from the root. Guides that lie beside what they are about count as papers, too. */
 export function paperNames(): string[] {
   const below = (folder: string) =>
     readdirSync(join(root, folder))
       .filter((name) => name.endsWith('.md'))
       .map((name) => normalize(join(folder, name)));
-  return [...below('.'), ...below('docs')];
+  return ['.', 'docs', 'examples', 'proto', 'server/device', 'server/openigtlink'].flatMap(below);
 }
 
 export const readPaper = (name: string) => readFileSync(join(root, name), 'utf8');

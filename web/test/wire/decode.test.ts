@@ -4,17 +4,12 @@ import { Builder } from 'flatbuffers';
 import { readFileSync } from 'node:fs';
 import { beforeAll, describe, expect, it } from 'vitest';
 
+import { meshMessage, serverMessage } from '../../../tests/support/fake_stream/messages';
 import { StreamDecoder, transferables } from '../../src/wire/decode';
 import { meshDecoderReady } from '../../src/wire/decode_block';
-import {
-  Body,
-  Hello,
-  Playback,
-  ServerMessage,
-  SessionState,
-  Telemetry,
-} from '../../src/wire/generated/stream_generated';
+import { Body, Hello, Playback, SessionState, Telemetry } from '../../src/wire/generated/stream_generated';
 import type { StreamMessage } from '../../src/wire/messages';
+import { simplifierReady } from '../../src/wire/simplified_surface';
 
 const golden = (name: string) =>
   new Uint8Array(readFileSync(new URL(`../../../proto/golden/${name}.bin`, import.meta.url)));
@@ -27,7 +22,7 @@ function decoded<K extends StreamMessage['kind']>(name: string, kind: K): Extrac
   return message as Extract<StreamMessage, { kind: K }>;
 }
 
-beforeAll(() => meshDecoderReady);
+beforeAll(() => Promise.all([meshDecoderReady, simplifierReady]));
 
 describe('StreamDecoder', () => {
   it('reads the hello', () => {
@@ -142,15 +137,47 @@ function cyclicTriangles(indices: ArrayLike<number>): number[][] {
   return triangles.sort((a, b) => a.join().localeCompare(b.join()));
 }
 
-describe('StreamDecoder of a replay', () => {
-  const message = (b: Builder, type: Body, body: number) => {
-    ServerMessage.startServerMessage(b);
-    ServerMessage.addBodyType(b, type);
-    ServerMessage.addBody(b, body);
-    b.finish(ServerMessage.endServerMessage(b));
-    return b.asUint8Array();
-  };
+/** A delta of one flat block, a corner for every two voxels. */
+function flatBlock(keyComplete: boolean): Uint8Array {
+  const row = 16;
+  const vertices = new Uint8Array(8 * row * row);
+  const places = new DataView(vertices.buffer);
+  const indices: number[] = [];
+  for (let i = 0; i < row * row; ++i) {
+    const [x, y] = [i % row, Math.floor(i / row)];
+    for (const [axis, voxels] of [2 * x, 2 * y, 7].entries()) places.setUint16(8 * i + 2 * axis, 1024 * voxels, true);
+    if (x + 1 < row && y + 1 < row) indices.push(i, i + 1, i + row + 1, i, i + row + 1, i + row);
+  }
+  const mesh = { vertices, vertexCount: row * row, indices: Uint32Array.from(indices) };
+  return meshMessage([{ block: 0, revision: 0, mesh }], 0, keyComplete);
+}
 
+describe('StreamDecoder for drawing in software', () => {
+  const trianglesOf = (decoder: StreamDecoder, bytes: Uint8Array) => {
+    const decoded = decoder.decode(bytes);
+    if (decoded.kind !== 'mesh') throw new Error('no mesh');
+    const buffers = transferables(decoded);
+    expect(new Set(buffers).size).toBe(buffers.length);
+    return (decoded.mesh.blocks[0]?.indices.length ?? 0) / 3;
+  };
+  const all = 2 * 15 * 15;
+
+  it('simplifies a surface alike in the first picture and after it', () => {
+    const decoder = new StreamDecoder(true);
+    decoder.decode(golden('hello'));
+    const first = trianglesOf(decoder, flatBlock(true));
+    expect(first).toBeLessThan(all / 4);
+    expect(trianglesOf(decoder, flatBlock(false))).toBe(first);
+  });
+
+  it('simplifies nothing elsewhere', () => {
+    const decoder = new StreamDecoder();
+    decoder.decode(golden('hello'));
+    expect(trianglesOf(decoder, flatBlock(false))).toBe(all);
+  });
+});
+
+describe('StreamDecoder of a replay', () => {
   it('says of what it is and where it stands', () => {
     const decoder = new StreamDecoder();
     const b = new Builder();
@@ -158,7 +185,7 @@ describe('StreamDecoder of a replay', () => {
     Hello.startHello(b);
     Hello.addReplayOf(b, of);
     Hello.addDurationTicks(b, 61234);
-    const hello = decoder.decode(message(b, Body.Hello, Hello.endHello(b)));
+    const hello = decoder.decode(serverMessage(b, Body.Hello, Hello.endHello(b)));
     expect(hello).toMatchObject({ hello: { replayOf: 'abcdefgh', durationTicks: 61234, scapula: null } });
 
     const c = new Builder();
@@ -171,7 +198,7 @@ describe('StreamDecoder of a replay', () => {
     Telemetry.startTelemetry(c);
     Telemetry.addState(c, SessionState.replaying);
     Telemetry.addPlayback(c, playback);
-    const decoded = decoder.decode(message(c, Body.Telemetry, Telemetry.endTelemetry(c)));
+    const decoded = decoder.decode(serverMessage(c, Body.Telemetry, Telemetry.endTelemetry(c)));
     expect(decoded).toMatchObject({
       telemetry: { state: 'replaying', playback: { positionTicks: 133, speed: 0.25, playing: true, jump: 7 } },
     });

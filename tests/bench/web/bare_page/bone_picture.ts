@@ -1,8 +1,10 @@
 import { Matrix4, Quaternion, Vector3 } from 'three';
 
+import { drawsInSoftware } from '../../../../web/src/scene/software_drawing';
 import { StreamDecoder } from '../../../../web/src/wire/decode';
 import { meshDecoderReady } from '../../../../web/src/wire/decode_block';
 import type { BlockSurface, Hello, Pose } from '../../../../web/src/wire/messages';
+import { simplifierReady } from '../../../../web/src/wire/simplified_surface';
 
 /** The reamer as the page shows it, where the stream has it first. */
 export interface ReamerPicture {
@@ -26,8 +28,9 @@ const stride = 4;
 
 /** The whole bone of a stream's messages, each with its length (u32, little endian) before it, and the reamer. */
 export async function streamedPicture(stream: ArrayBuffer): Promise<{ bone: BonePicture; reamer: ReamerPicture }> {
-  await meshDecoderReady;
-  const decoder = new StreamDecoder();
+  await Promise.all([meshDecoderReady, simplifierReady]);
+  // As the page draws it.
+  const decoder = new StreamDecoder(drawsInSoftware());
   const newest = new Map<number, BlockSurface>();
   let hello: Hello | null = null;
   let pose: Pose | null = null;

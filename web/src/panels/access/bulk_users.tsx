@@ -4,7 +4,6 @@ import { useEffect, useMemo } from 'preact/hooks';
 import { BulkUsers } from '../../state/access/bulk_users';
 import { isRole, type UserRow } from '../../state/access/user_rows';
 import type { Remote } from '../../state/remote';
-import { guardUnsaved } from '../../state/unsaved';
 import { accessText } from '../../text/access_text';
 import { appText } from '../../text/app_text';
 import { bulkUsersText } from '../../text/bulk_users_text';
@@ -14,6 +13,7 @@ import type { User } from '../../wire/rest_types';
 import { Button } from '../common/button';
 import { ColumnHeads } from '../common/column_heads';
 import { CopyButton } from '../common/copy_button';
+import { useUnsavedGuard } from '../common/use_unsaved_guard';
 import { Message } from '../common/fields';
 
 /** Many users at once, from a table: all lines are checked before the first is made. */
@@ -24,14 +24,7 @@ export function BulkUsersPanel({ api, users }: { api: AccessApi; users: Remote<U
   useEffect(() => {
     if (!bulk.tried.peek()) bulk.taken.value = (list ?? []).map(({ name }) => name);
   }, [bulk, list, bulk.tried.value]);
-  useEffect(
-    () =>
-      guardUnsaved(
-        () => bulk.unsaved.peek(),
-        () => window.confirm(bulkUsersText.leave),
-      ),
-    [bulk],
-  );
+  useUnsavedGuard(bulk, ({ unsaved }) => unsaved.peek(), bulkUsersText.leave);
   const { rows, fault } = bulk.check.value;
   return (
     <section class="content-panel" aria-labelledby="bulk-title" data-testid="bulk-users">

@@ -1,18 +1,23 @@
+import { Fragment } from 'preact';
 import { useState } from 'preact/hooks';
 
 import { caseText } from '../../text/case_text';
 import type { CaseController } from '../../state/case/case_controller';
 import type { PlanDraft } from '../../state/case/case_store';
 import { add, length } from '../../ct/volume_frame';
-import type { PlanAssessment, Plan, Triple } from '../../wire/rest_types';
+import type { PlanAssessment, Plan, PlanOutcome, Reamer, Triple } from '../../wire/rest_types';
 import { fixed, sentence } from '../../text/format';
 import { inclinationText, versionText } from './angle_text';
+import { outcomeRows, outcomeWarning } from './outcome_text';
+import { plannedReamerText } from './reamer_text';
 import { NumberBox, NumberField, Message } from '../common/fields';
 import { Button } from '../common/button';
 
 /** The proposed or kept plan by numbers, what it would do, and keeping it. */
 export function PlanDraftPanel({ controller, draft }: { controller: CaseController; draft: PlanDraft }) {
-  const { plan, assessment, isAssessed, kept } = draft;
+  const { plan, assessment, outcome, isAssessed, kept } = draft;
+  const problem = controller.store.predictionProblem.value;
+  const stale = !isAssessed;
   const change = (part: Partial<Plan>) => controller.draftPlan({ ...plan, ...part });
   const overrideReason = controller.store.overrideRequired.value;
   return (
@@ -44,11 +49,17 @@ export function PlanDraftPanel({ controller, draft }: { controller: CaseControll
         testId="plan-depth"
         onChange={(depth_mm) => change({ depth_mm })}
       />
-      <PlanFacts plan={plan} />
-      {assessment !== null && !isAssessed && <Message kind="warn">{caseText.planChanged}</Message>}
-      {assessment !== null && <AssessmentFigures assessment={assessment} stale={!isAssessed} />}
+      <PlanFacts plan={plan} reamers={controller.store.reamers.value} />
+      {problem !== null && <Message kind="warn">{caseText.planNotPredicted(problem)}</Message>}
+      <p role="status">{problem === null && (stale || outcome === null) ? caseText.planPredicting : ''}</p>
+      {assessment !== null && <AssessmentFigures assessment={assessment} stale={stale} />}
+      {outcome !== null && <OutcomeFigures outcome={outcome} stale={stale} />}
       {overrideReason !== null || (isAssessed && assessment?.needs_override === true) ? (
-        <Override controller={controller} message={overrideReason} kept={kept} />
+        <Override
+          controller={controller}
+          message={overrideReason}
+          kept={kept && !controller.store.planBeforeLandmarks.value}
+        />
       ) : (
         <div class="buttons">
           <Button
@@ -66,13 +77,13 @@ export function PlanDraftPanel({ controller, draft }: { controller: CaseControll
 }
 
 /** What of the plan is not edited here. */
-function PlanFacts({ plan }: { plan: Plan }) {
+function PlanFacts({ plan, reamers }: { plan: Plan; reamers: readonly Reamer[] }) {
   const { pilot_diameter_mm: diameter, pilot_depth_mm: depth } = plan;
   const hasPilot = typeof diameter === 'number' && typeof depth === 'number';
   return (
     <dl class="figures-list">
       <dt>{caseText.reamer}</dt>
-      <dd>{plan.reamer}</dd>
+      <dd>{plannedReamerText(plan.reamer, reamers)}</dd>
       <dt>{caseText.guide}</dt>
       <dd>{caseText.guides[plan.guide ?? 'none']}</dd>
       <dt>{caseText.pilotHole}</dt>
@@ -107,6 +118,31 @@ function AssessmentFigures({ assessment, stale }: { assessment: PlanAssessment; 
         </Message>
       ))}
     </>
+  );
+}
+
+/** What the plan reaches where it is carried out exactly. */
+function OutcomeFigures({ outcome, stale }: { outcome: PlanOutcome; stale: boolean }) {
+  const rows = outcomeRows(outcome);
+  const warning = outcomeWarning(outcome);
+  return (
+    <section data-testid="plan-outcome">
+      <h3>{caseText.planResult}</h3>
+      <p class="soft">{caseText.planResultHint}</p>
+      <dl class={stale ? 'figures-list stale' : 'figures-list'}>
+        {rows.map(([name, value]) => (
+          <Fragment key={name}>
+            <dt>{name}</dt>
+            <dd>{value}</dd>
+          </Fragment>
+        ))}
+      </dl>
+      {warning !== null && !stale && (
+        <Message kind="warn" testId="outcome-warning">
+          {warning}
+        </Message>
+      )}
+    </section>
   );
 }
 

@@ -5,9 +5,9 @@ import { caseText } from '../../text/case_text';
 import type { CaseController } from '../../state/case/case_controller';
 import { neededNames, pointOf } from '../../state/case/landmark_names';
 import type { Guide, PlanTargets, Reamer } from '../../wire/rest_types';
-import { fixed } from '../../text/format';
 import { CheckField, NumberBox, NumberField, Message, SelectField } from '../common/fields';
 import { PlanDraftPanel } from './plan_draft_panel';
+import { reamerText } from './reamer_text';
 import { Button } from '../common/button';
 
 /** Components whose pegs or keels scoring knows. */
@@ -221,13 +221,6 @@ function GivenNumber({ label, value, low, high, usual, testId, onChange }: Given
       )}
     </div>
   );
-}
-
-function reamerText({ name, diameter_mm, radius_mm }: Reamer): string {
-  const diameter = fixed(diameter_mm, 1);
-  return radius_mm === null
-    ? caseText.reamerFlat(name, diameter)
-    : caseText.reamerText(name, diameter, fixed(radius_mm, 1));
 }
 
 interface AngleParts {

@@ -1,3 +1,4 @@
+import { dayAndTime } from '../../text/format';
 import { dashboardText } from '../../text/dashboard_text';
 import type { Session } from '../../wire/rest_types';
 
@@ -12,3 +13,7 @@ export function traineeLabel(session: Session): string {
   if (participant) return dashboardText.byParticipant(participant);
   return title || dashboardText.unnamed;
 }
+
+/** A session in one line: when, on what, and whose it is. */
+export const sessionLabel = (session: Session): string =>
+  [dayAndTime(session.created_utc), session.title || session.case, traineeLabel(session)].join(', ');

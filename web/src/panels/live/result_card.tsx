@@ -187,11 +187,13 @@ function Buttons({
         <Button
           look="main"
           testId="try-again"
-          title={next === 'again' ? resultText.tryAgainHint : next === 'practise' ? resultText.practiseHint : undefined}
+          title={
+            next === 'again' ? resultText.startAgainHint : next === 'practise' ? resultText.practiseHint : undefined
+          }
           disabled={store.busy.value}
           onClick={() => void beginNext(next, session, { watcher, practice, may, choice })}
         >
-          {{ attempt: appText.nextAttempt, again: resultText.tryAgain, practise: appText.practise }[next]}
+          {{ attempt: appText.nextAttempt, again: resultText.startAgain, practise: appText.practise }[next]}
         </Button>
       )}
       {recorded && (

@@ -3,6 +3,7 @@ import type { Store } from '../../state/store';
 import { appText } from '../../text/app_text';
 import { practiceText } from '../../text/practice_text';
 import { useIdentity } from '../common/site_nav';
+import { isDemo } from '../common/trainee_label';
 import type { Session } from '../../wire/rest_types';
 
 /** Whose session it is, what it is called, and what is left to do after one of a study. */
@@ -46,8 +47,7 @@ export function labelsOf(session: Session): string[] {
 
 /** A script reams for nobody, whoever started it. */
 function byWhom(session: Session): string {
-  if (session.device.name === 'script')
-    return session.script === 'demo' ? practiceText.demoRun : practiceText.scriptRun;
+  if (isDemo(session)) return session.script === 'demo' ? practiceText.demoRun : practiceText.scriptRun;
   const who = session.trainee || session.participant;
   return who ? appText.trainedBy(who) : '';
 }

@@ -56,7 +56,8 @@ export class ReviewWorkspace {
   private open(id: string): Pane {
     const view = new ReviewView(this.settings, this.camera);
     const { review } = this;
-    const socket = new WorkerStreamSocket();
+    // What is measured here is measured on all that there is.
+    const socket = new WorkerStreamSocket(false);
     const sources = {
       api: new Api(this.origin),
       review,

@@ -3,13 +3,13 @@ import { useMemo } from 'preact/hooks';
 import type { Remote } from '../../state/remote';
 import { BenchmarkDraft, type Group } from '../../state/rubric/benchmark_draft';
 import { benchmarkText } from '../../text/benchmark_text';
-import { dayAndTime } from '../../text/format';
 import type { BenchmarkSummary, Session } from '../../wire/rest_types';
 import type { RubricApi } from '../../wire/rubric_api';
 import { Button } from '../common/button';
+import { ColumnHeads } from '../common/column_heads';
 import { Message } from '../common/fields';
 import { Choice, TextLine } from '../common/form_fields';
-import { traineeLabel } from '../common/trainee_label';
+import { sessionLabel } from '../common/trainee_label';
 import { useRemote } from '../common/use_remote';
 
 const offered = 100;
@@ -77,12 +77,7 @@ function SessionPicker({ draft, sessions }: { draft: BenchmarkDraft; sessions: r
       {sessions.length >= offered && <p class="soft">{benchmarkText.newest(sessions.length)}</p>}
       <div class="table-scroll picker" tabIndex={0} role="region" aria-label={benchmarkText.sessions}>
         <table class="data-table">
-          <thead>
-            <tr>
-              <th scope="col">{benchmarkText.groupColumn}</th>
-              <th scope="col">{benchmarkText.sessionColumn}</th>
-            </tr>
-          </thead>
+          <ColumnHeads names={[benchmarkText.groupColumn, benchmarkText.sessionColumn]} />
           <tbody>
             {sessions.map((session) => (
               <SessionRow key={session.id} draft={draft} session={session} />
@@ -95,7 +90,7 @@ function SessionPicker({ draft, sessions }: { draft: BenchmarkDraft; sessions: r
 }
 
 function SessionRow({ draft, session }: { draft: BenchmarkDraft; session: Session }) {
-  const { id, title, created_utc } = session;
+  const { id } = session;
   return (
     <tr>
       <td>
@@ -112,7 +107,7 @@ function SessionRow({ draft, session }: { draft: BenchmarkDraft; session: Sessio
           ))}
         </select>
       </td>
-      <td>{[dayAndTime(created_utc), title || session.case, traineeLabel(session)].join(', ')}</td>
+      <td>{sessionLabel(session)}</td>
     </tr>
   );
 }

@@ -6,14 +6,13 @@ import { useEffect, useMemo } from 'preact/hooks';
 import { addressOfRoute } from '../../state/route';
 import type { RubricDraft } from '../../state/rubric/rubric_draft';
 import { RubricPreview } from '../../state/rubric/rubric_preview';
-import { dayAndTime } from '../../text/format';
 import { rubricText } from '../../text/rubric_text';
 import { messageOf } from '../../wire/rest';
 import type { Session } from '../../wire/rest_types';
 import type { RubricApi } from '../../wire/rubric_api';
 import { Button } from '../common/button';
 import { Message } from '../common/fields';
-import { traineeLabel } from '../common/trainee_label';
+import { sessionLabel } from '../common/trainee_label';
 import { useRemote } from '../common/use_remote';
 import { ScoreCard } from '../review/score_panel';
 
@@ -79,9 +78,7 @@ function SessionChoice({ list, value, onChange }: ChoiceParts) {
           <option value="">{rubricText.chooseSession}</option>
           {list.map((session) => (
             <option key={session.id} value={session.id}>
-              {[dayAndTime(session.created_utc), session.title || session.case, traineeLabel(session)]
-                .filter((part) => part !== '')
-                .join(', ')}
+              {sessionLabel(session)}
             </option>
           ))}
         </select>

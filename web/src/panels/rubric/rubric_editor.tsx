@@ -1,9 +1,7 @@
 import { useSignal } from '@preact/signals';
-import { useEffect } from 'preact/hooks';
 
 import { addressOfRoute } from '../../state/route';
 import type { RubricDraft } from '../../state/rubric/rubric_draft';
-import { guardUnsaved } from '../../state/unsaved';
 import { rubricText } from '../../text/rubric_text';
 import { ApiError, messageOf } from '../../wire/rest';
 import type { RubricApi } from '../../wire/rubric_api';
@@ -11,6 +9,7 @@ import { Button } from '../common/button';
 import { Message } from '../common/fields';
 import { CriteriaPanel } from './criteria_panel';
 import { FaultField, NumberLine } from '../common/fault_field';
+import { useUnsavedGuard } from '../common/use_unsaved_guard';
 import { PreviewPanel } from './preview_panel';
 
 interface Parts {
@@ -21,14 +20,7 @@ interface Parts {
 
 /** A rubric with all that it says, and what it makes of a session. */
 export function RubricEditor({ api, id, draft }: Parts) {
-  useEffect(
-    () =>
-      guardUnsaved(
-        () => draft.changed.peek(),
-        () => window.confirm(rubricText.leave),
-      ),
-    [draft],
-  );
+  useUnsavedGuard(draft, ({ changed }) => changed.peek(), rubricText.leave);
   return (
     <div class="rubric-editor">
       <div class="rubric-form">

@@ -1,8 +1,7 @@
 import { useSignal } from '@preact/signals';
-import { useEffect, useMemo } from 'preact/hooks';
+import { useMemo } from 'preact/hooks';
 
 import { type QuestionnaireChoice, StudyDraft } from '../../state/study/study_draft';
-import { guardUnsaved } from '../../state/unsaved';
 import { feelText } from '../../text/feel_text';
 import { questionnaireText } from '../../text/questionnaire_text';
 import { studyText } from '../../text/study_text';
@@ -12,6 +11,7 @@ import type { StudyApi } from '../../wire/study_api';
 import { Message } from '../common/fields';
 import { Choice, TextLine } from '../common/form_fields';
 import { useRemote } from '../common/use_remote';
+import { useUnsavedGuard } from '../common/use_unsaved_guard';
 import { Button } from '../common/button';
 import { DesignFields } from './design_fields';
 import { FeelFields } from './feel_fields';
@@ -24,14 +24,7 @@ export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: st
   const draft = useMemo(() => new StudyDraft(), []);
   const previewed = useSignal(false);
   const made = useSignal(false);
-  useEffect(
-    () =>
-      guardUnsaved(
-        () => !made.peek() && draft.questionnaireWritten,
-        () => window.confirm(questionnaireText.leave),
-      ),
-    [draft, made],
-  );
+  useUnsavedGuard(draft, ({ questionnaireWritten }) => !made.peek() && questionnaireWritten, questionnaireText.leave);
   const make = async (event: Event) => {
     event.preventDefault();
     draft.problem.value = null;

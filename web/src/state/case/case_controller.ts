@@ -8,7 +8,6 @@ import type {
   CaseCt,
   Job,
   BonePart,
-  NewPlan,
   Plan,
   PlanTargets,
   CaseSegmentation,
@@ -16,20 +15,26 @@ import type {
   Triple,
 } from '../../wire/rest_types';
 import { ApiError, messageOf } from '../../wire/rest';
-import { type Armed, CaseStore } from './case_store';
+import { type Armed, CaseStore, type PlanDraft } from './case_store';
 import { nextStep, stepStates } from './case_steps';
 import { followJob, isUnderWay, pause } from './job_watch';
 import { LandmarkEditor } from './landmark_editor';
+import { newPlanOf, PlanPrediction } from './plan_prediction';
 import { landmarkNames, type LandmarkName, nextMissing, placedFrom, pointOf, withPoint } from './landmark_names';
 
 /** Around a part that the slices show whole. */
 const partMarginMm = 12;
+
+/** What a plan's result depends on beside the plan. */
+const plannedOn = ({ landmarks, segmentation, built }: Case): string =>
+  JSON.stringify([landmarks, segmentation?.revision, built]);
 
 /** Opens one case and carries out what the user asks for on its page. */
 export class CaseController {
   readonly store = new CaseStore();
   readonly landmarks: LandmarkEditor;
   readonly slices: SliceCache;
+  private readonly prediction: PlanPrediction;
   private readonly ended = new AbortController();
 
   constructor(
@@ -39,6 +44,7 @@ export class CaseController {
     readonly mayEdit = true,
   ) {
     this.landmarks = new LandmarkEditor(api, caseId, (saved) => this.take(saved));
+    this.prediction = new PlanPrediction(api, caseId, this.store.draft, this.store.predictionProblem);
     this.slices = new SliceCache(({ of, revision, axis, index }, signal) =>
       api.slice(caseId, of, revision, axis, index, signal),
     );
@@ -52,8 +58,7 @@ export class CaseController {
       if (this.ended.signal.aborted) return;
       batch(() => {
         this.take(details);
-        store.draft.value =
-          details.plan === null ? null : { plan: details.plan, assessment: null, isAssessed: false, kept: true };
+        store.draft.value = null;
         store.openStep.value = this.mayEdit
           ? nextStep(stepStates({ details, landmarks: placedFrom(details.landmarks), planBeforeLandmarks: false }))
           : 'ream';
@@ -61,7 +66,10 @@ export class CaseController {
       this.landmarks.take(details.landmarks);
       this.armFirstMissing();
       this.frameScapula();
-      if (details.plan !== null) this.lookAt(details.plan.entry_mm);
+      if (details.plan !== null) {
+        this.takeDraft({ plan: details.plan, assessment: null, outcome: null, isAssessed: false, kept: true });
+        this.lookAt(details.plan.entry_mm);
+      }
       const [reamers, jobs] = await Promise.all([
         this.api.reamers().catch(() => []),
         this.mayEdit ? this.api.jobs(this.caseId).catch(() => []) : [],
@@ -109,22 +117,27 @@ export class CaseController {
     return this.run(async () => {
       await this.landmarks.saveNow();
       const { plan, assessment } = await this.api.proposePlan(this.caseId, targets);
-      this.store.draft.value = { plan, assessment, isAssessed: true, kept: false };
-      this.store.overrideRequired.value = null;
+      this.takeDraft({ plan, assessment, outcome: null, isAssessed: true, kept: false });
       this.lookAt(plan.entry_mm);
     });
   }
 
-  /** The plan as it is changed by hand; nothing is sent, and an override was of the plan before. */
+  /** The plan as it is changed by hand; nothing is saved, and an override was of the plan before. */
   draftPlan(changed: Plan): void {
     const draft = this.store.draft.value;
     const plan = { ...changed };
     delete plan.override;
     delete plan.override_reason;
+    const { assessment, outcome } = draft ?? { assessment: null, outcome: null };
+    this.takeDraft({ plan, assessment, outcome, isAssessed: false, kept: false });
+  }
+
+  private takeDraft(draft: PlanDraft): void {
     batch(() => {
-      this.store.draft.value = { plan, assessment: draft?.assessment ?? null, isAssessed: false, kept: false };
+      this.store.draft.value = draft;
       this.store.overrideRequired.value = null;
     });
+    if (this.mayEdit) void this.prediction.update(this.ended.signal);
   }
 
   /** Makes the draft the case's plan; `override` is the reason for a correction that is refused without one. */
@@ -133,14 +146,12 @@ export class CaseController {
       const draft = this.store.draft.value;
       if (draft === null) return;
       const overriding = override === null ? {} : { override: true, override_reason: override };
-      const { pilot_diameter_mm: diameter, pilot_depth_mm: depth, ...plan } = draft.plan;
-      const pilot = diameter === null || depth === null ? {} : { pilot_diameter_mm: diameter, pilot_depth_mm: depth };
-      const newPlan: NewPlan = { ...plan, ...pilot, ...overriding };
       try {
-        const { plan, assessment } = await this.api.putPlan(this.caseId, newPlan);
+        const { plan, assessment } = await this.api.putPlan(this.caseId, { ...newPlanOf(draft.plan), ...overriding });
+        const now = this.store.draft.value;
         batch(() => {
-          this.store.draft.value = { plan, assessment, isAssessed: true, kept: true };
-          this.store.overrideRequired.value = null;
+          // What was changed meanwhile is not saved.
+          if (now !== null && now.plan === draft.plan) this.takeDraft({ ...now, plan, assessment, kept: true });
           this.store.planBeforeLandmarks.value = false;
         });
         this.take(await this.api.case(this.caseId));
@@ -277,6 +288,9 @@ export class CaseController {
       }
       store.settings.value ??= settingsOf(details.ct, details.segmentation);
     });
+    const draft = store.draft.value;
+    if (before !== null && draft !== null && plannedOn(before) !== plannedOn(details))
+      this.takeDraft({ ...draft, isAssessed: false });
   }
 
   private async run(action: () => Promise<void>): Promise<void> {

@@ -6,6 +6,7 @@ import { VolumeFrame } from '../../ct/volume_frame';
 import { type WindowLevel, windowPresets } from '../../ct/window_level';
 import type {
   PlanAssessment,
+  PlanOutcome,
   Case,
   Job,
   Plan,
@@ -24,7 +25,9 @@ export type Armed = { kind: 'landmark'; name: LandmarkName } | { kind: 'seed'; n
 export interface PlanDraft {
   plan: Plan;
   assessment: PlanAssessment | null;
-  /** The assessment is of this plan, not of one before it was changed by hand. */
+  /** Where it is carried out exactly. */
+  outcome: PlanOutcome | null;
+  /** Assessment and outcome are of this plan, not of one before it was changed by hand. */
   isAssessed: boolean;
   /** The server has it as the case's plan. */
   kept: boolean;
@@ -68,6 +71,8 @@ export class CaseStore {
 
   readonly reamers = signal<readonly Reamer[]>([]);
   readonly draft = signal<PlanDraft | null>(null);
+  /** Why nobody knows what the draft would do. */
+  readonly predictionProblem = signal<string | null>(null);
   /** Landmarks were changed after the plan was kept. */
   readonly planBeforeLandmarks = signal(false);
   /** The server asks for an override, with its reason. */

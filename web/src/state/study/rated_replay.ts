@@ -13,7 +13,7 @@ export class RatedReplay {
   readonly store = new Store();
   readonly scene = new BoneScene();
   readonly player: ReplayPlayer;
-  private readonly socket = new WorkerStreamSocket();
+  private readonly socket = new WorkerStreamSocket(this.scene.inSoftware);
   private readonly stops: (() => void)[] = [];
 
   constructor(

@@ -118,6 +118,13 @@ describe('CaseController', () => {
     controller.draftPlan({ ...kept, depth_mm: 3 });
     expect(store.draft.value).toMatchObject({ kept: false, isAssessed: false });
     expect(store.draft.value?.plan).not.toHaveProperty('override');
+    await until(() => store.draft.value?.isAssessed === true);
+    expect(store.draft.value).toMatchObject({ kept: false, outcome: { depth_mean_mm: 3 } });
+    controller.draftPlan({ ...kept, depth_mm: 1 });
+    controller.draftPlan({ ...kept, depth_mm: 4 });
+    expect(store.draft.value).toMatchObject({ isAssessed: false, outcome: { depth_mean_mm: 3 } });
+    await until(() => store.draft.value?.isAssessed === true);
+    expect(store.draft.value).toMatchObject({ outcome: { depth_mean_mm: 4, parts_through_vault: 1 } });
 
     await controller.build({ upsample: 4, roi: 'glenoid', cartilage_mm: 0 });
     expect(store.details.value?.stage).toBe('built');
