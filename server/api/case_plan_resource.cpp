@@ -7,6 +7,8 @@
 #include "case/plan.hpp"
 #include "core/log.hpp"
 #include "net/problem.hpp"
+#include "score/plan_outcome.hpp"
+#include "session/simulation/reamer.hpp"
 #include "shell/parametric_profile.hpp"
 #include "shell/reamer_library.hpp"
 #include "workup/case_json.hpp"
@@ -59,6 +61,16 @@ net::Response propose_plan(const Services& services, const net::Request& request
                                   {"assessment", case_::to_json(services.cases.assess(id, plan))}});
 }
 
+net::Response assess_plan(const Services& services, const net::Request& request) {
+  const std::string& id = id_of(request);
+  const case_::Plan plan = case_::plan_from_json(body_of(request), body_place);
+  check_reamer(plan.reamer, services.data_folder);
+  const shell::ToolProfile reamer = session::tool_asked_for(plan.reamer, services.data_folder).profile;
+  return net::json_response(200,
+                            {{"assessment", case_::to_json(services.cases.assess(id, plan))},
+                             {"outcome", score::outcome_json(services.cases.outcome(id, plan, reamer))}});
+}
+
 net::Response set_plan(const Services& services, const net::Request& request) {
   const std::string& id = id_of(request);
   const case_::Plan plan = case_::plan_from_json(body_of(request), body_place);
@@ -100,6 +112,7 @@ std::vector<Route> case_plan_routes() {
           {"PUT", one + "/landmarks", staff, changes("case.landmarks"), set_landmarks, {"case", "changed"}},
           {"GET", one + "/plan", reamers, reads("case.read"), get_plan},
           {"POST", one + "/plan/proposal", staff, not_audited, propose_plan},
+          {"POST", one + "/plan/assessment", staff, not_audited, assess_plan},
           {"PUT", one + "/plan", staff, changes("case.plan"), set_plan, {"case", "changed"}},
           {"GET", "/api/v1/reamers", reamers, not_audited, list_reamers}};
 }

@@ -1,6 +1,5 @@
 #include "api/change_feed.hpp"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "access/role.hpp"

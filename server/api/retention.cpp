@@ -6,7 +6,6 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
-#include "core/json.hpp"
 #include "core/log.hpp"
 
 namespace ream::api {
@@ -45,6 +44,7 @@ std::chrono::nanoseconds time_since_boot() {
 Retention::Retention(RetentionRules rules, RetentionTools tools)
     : rules_(std::move(rules)),
       tools_(std::move(tools)),
+      even_(trusted_after),
       task_(
           "the rules of retention could not be carried out",
           [this] {

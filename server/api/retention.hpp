@@ -94,7 +94,7 @@ class Retention {
   const RetentionTools tools_;
   std::optional<ClockReading> last_reading_;
   /// For how long the clock has gone evenly, at least; trusted from a day on.
-  std::chrono::nanoseconds even_ = std::chrono::hours(24);
+  std::chrono::nanoseconds even_;
   std::string reason_;  ///< of this look
   mutable std::mutex mutex_;
   std::string held_;

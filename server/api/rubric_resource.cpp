@@ -21,8 +21,7 @@ bool has_rubric(const score::RubricStore& store, const std::string& id) {
 }
 
 void require_rubric(const score::RubricStore& store, const std::string& id) {
-  if (!has_rubric(store, id))
-    throw Error(ErrorKind::not_found, "no rubric '" + id + "'; GET " + rubrics_path + " lists them");
+  if (!has_rubric(store, id)) throw Error(ErrorKind::not_found, "no rubric '" + id + "'");
 }
 
 void require_place(const ScoreStores& stores) {

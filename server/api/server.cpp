@@ -72,6 +72,7 @@ Server::Server(ServerOptions options)
                 *feed_,
                 retention_,
                 readiness_,
+                database_watch_,
                 options.cases_folder,
                 options.data_folder,
                 under(options.data_folder, "passing"),
@@ -80,6 +81,7 @@ Server::Server(ServerOptions options)
       router_(router_for(options)),
       listener_(router_, options.listen),
       readiness_(*engine_, options.make_demo_case),
+      database_watch_(database_),
       watch_(sessions_, *feed_),
       unused_("sessions that nobody starts or that stay paused, and uploads that nobody goes on with",
               [this] {
@@ -96,12 +98,14 @@ void Server::start() {
   listener_.start();
   retention_.begin();
   unused_.start();
+  database_watch_.start();
 }
 
 void Server::stop() {
   listener_.stop();
   retention_.stop();
   watch_.stop();
+  database_watch_.stop();
   unused_.stop();
   jobs_.shut_down();
   replays_.shut_down();

@@ -81,6 +81,7 @@ class Server {
   net::Router router_;
   net::Listener listener_;
   Readiness readiness_;
+  DatabaseWatch database_watch_;
   SessionWatch watch_;
   PeriodicTask unused_;  ///< ends sessions that nobody starts, removes uploads that nobody uses
 };

@@ -16,6 +16,7 @@ net::Response get_health(const Services&, const net::Request&) {
 
 net::Response get_readiness(const Services& services, const net::Request&) {
   services.readiness.require_ready();
+  services.database_watch.require_there();
   nlohmann::json view = {{"status", "ready"}};
   if (const std::string held = services.retention.held(); !held.empty()) view["retention_held"] = held;
   return net::json_response(200, view);

@@ -5,6 +5,7 @@
 #include "access/access_control.hpp"
 #include "api/authorizer.hpp"
 #include "api/change_feed.hpp"
+#include "api/database_watch.hpp"
 #include "api/readiness.hpp"
 #include "api/retention.hpp"
 #include "api/score_stores.hpp"
@@ -37,6 +38,7 @@ struct Services {
   ChangeFeed& feed;
   Retention& retention;
   const Readiness& readiness;
+  const DatabaseWatch& database_watch;
   std::filesystem::path cases_folder;
   std::filesystem::path data_folder;       ///< has users' reamers
   std::filesystem::path temporary_folder;  ///< for files that are made to be sent once

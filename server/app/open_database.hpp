@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "access/audit_log.hpp"
 #include "store/database.hpp"
@@ -20,5 +21,11 @@ access::Actor command_line_actor();
 
 /// Whether people have to log in. Makes nothing where there is no database yet. Errors as open_database().
 bool has_users(const std::string& chosen, const std::filesystem::path& data);
+
+/// Notes in the audit log that a command reads what `names` mean: ids, folders or files. Only what lies in
+/// the data folder is noted, and only where people have to log in; one row for each session or case. To be
+/// called before the reading, as what cannot be noted must not be read. Errors as open_database().
+void note_reading(const std::string& chosen, const std::filesystem::path& data, const std::string& action,
+                  const std::vector<std::string>& names);
 
 }  // namespace ream::app

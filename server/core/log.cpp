@@ -46,7 +46,7 @@ class JsonText : public spdlog::custom_flag_formatter {
 std::unique_ptr<spdlog::formatter> formatter(Format format) {
   if (format == Format::automatic) format = writes_to_journal() ? Format::journal : Format::text;
   if (format == Format::text)
-    return std::make_unique<spdlog::pattern_formatter>("%Y-%m-%d %H:%M:%S.%e %^%l%$ %v");
+    return std::make_unique<spdlog::pattern_formatter>("%Y-%m-%d %H:%M:%S.%e %z %^%l%$ %v");
   if (format == Format::journal) {
     auto made = std::make_unique<spdlog::pattern_formatter>();
     made->add_flag<SyslogLevel>('*').set_pattern("<%*>%v");

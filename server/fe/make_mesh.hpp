@@ -1,5 +1,4 @@
 #pragma once
-#include <optional>
 
 #include "fe/element_model.hpp"
 #include "fe/mesh_writers.hpp"

@@ -1,6 +1,5 @@
 #include "fe/element_model.hpp"
 
-#include <algorithm>
 #include <array>
 
 #include "core/error.hpp"

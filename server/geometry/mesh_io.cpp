@@ -1,7 +1,6 @@
 #include "geometry/mesh_io.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 #include "core/error.hpp"
 #include "core/file.hpp"

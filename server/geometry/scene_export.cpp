@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <assimp/Exporter.hpp>
 #include <cmath>
-#include <cstring>
-#include <memory>
 #include <set>
 
 #include "core/error.hpp"

@@ -49,8 +49,8 @@ FileDescriptor moved_up(int descriptor) {
   return moved;
 }
 
-FileDescriptor opened(const fs::path& path) {
-  FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
+FileDescriptor opened(const fs::path& path, int how = O_RDONLY) {
+  FileDescriptor file(::open(path.c_str(), how | O_CLOEXEC | O_NOCTTY));
   if (!file) throw Error(ErrorKind::io, "cannot read " + path.string() + ": " + std::strerror(errno));
   return moved_up(file.get());
 }
@@ -136,7 +136,7 @@ void send_request(const FileDescriptor& to, const ReaderJob& job) {
   const std::string text = json{
       {"task", job.task},
       {"input", job.input.string()},
-      {"with_folder", job.with_folder},
+      {"neighbour", job.neighbour},
       {"options", job.options},
       {"memory_bytes", memory},
       {"file_bytes", job.limits.file_bytes},
@@ -295,7 +295,10 @@ ReaderResult read_isolated(const ReaderJob& job, const Progress& progress) {
   std::error_code failed;
   if (!fs::exists(job.input, failed))
     throw Error(ErrorKind::not_found, "no such file or folder: " + job.input.string());
-  const FileDescriptor input = opened(job.with_folder ? fs::absolute(job.input).parent_path() : job.input);
+  // A folder is only passed through: this descriptor lists no names.
+  const FileDescriptor input = job.neighbour.empty()
+                                   ? opened(job.input)
+                                   : opened(fs::absolute(job.input).parent_path(), O_PATH | O_DIRECTORY);
   auto folder = std::make_unique<TemporaryFolder>(
       job.scratch.empty() ? fs::temp_directory_path() / "ream-read" : job.scratch / ".ream-read");
   const FileDescriptor output = opened(folder->path());

@@ -36,7 +36,7 @@ struct ReaderJob {
   std::filesystem::path program = {};  ///< empty: reader_program()
   std::string task;                    ///< a name that it knows
   std::filesystem::path input;         ///< a file or a folder
-  bool with_folder = false;  ///< the file's folder may be read too: its header names other files there
+  std::string neighbour = {};  ///< name of a file in the same folder that may be read, too; empty: none
   nlohmann::json options = nlohmann::json::object();
   ReaderLimits limits;
   std::filesystem::path scratch;  ///< folder for what it writes; empty: the system's for temporary files

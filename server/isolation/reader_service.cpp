@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/prctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -10,9 +11,9 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <vector>
 
 #include "core/error.hpp"
-#include "core/file_descriptor.hpp"
 #include "core/json.hpp"
 #include "isolation/sandbox.hpp"
 
@@ -42,25 +43,40 @@ json take_request() {
   return parse_json_or_discard(text);
 }
 
-/// The path of the input in this process, under its own name, as readers go by endings; and what stands for
-/// it in messages.
+/// The path of the input in this process, under its own name, as readers go by endings; what stands for it in
+/// messages; and the files that may be read.
 struct Input {
   fs::path path;
   std::string inside, given;
+  std::vector<int> readable;  ///< open descriptors
 };
+
+/// A file in the folder that the reader was started with. There may be none of that name, or a folder, of
+/// which nothing may be read: who needs it says so.
+void open_in_folder(Input& input, const fs::path& name, int how) {
+  const int file = ::openat(input_descriptor, name.filename().c_str(), O_RDONLY | O_CLOEXEC | how);
+  struct stat status {};
+  if (file >= 0 && ::fstat(file, &status) == 0 && S_ISREG(status.st_mode))
+    input.readable.push_back(file);
+  else if (file >= 0)
+    ::close(file);
+}
 
 Input open_input(const json& request) {
   const fs::path given = request.at("input").get<std::string>();
-  const bool with_folder = request.at("with_folder").get<bool>();
+  const fs::path neighbour = request.at("neighbour").get<std::string>();
   const fs::path name = given.has_filename() ? given.filename() : fs::path("input");
   const fs::path descriptor = "/proc/self/fd/" + std::to_string(input_descriptor);
   fs::create_directory("input");
-  if (with_folder) {
+  if (!neighbour.empty()) {
     fs::create_symlink(descriptor, "input/folder");
-    return {fs::path("input/folder") / name, "input/folder", given.parent_path().string()};
+    Input input{fs::path("input/folder") / name, "input/folder/", (given.parent_path() / "").string(), {}};
+    open_in_folder(input, name, 0);
+    open_in_folder(input, neighbour, O_NOFOLLOW | O_NONBLOCK);
+    return input;
   }
   fs::create_symlink(descriptor, "input" / name);
-  return {"input" / name, ("input" / name).string(), given.string()};
+  return {"input" / name, ("input" / name).string(), given.string(), {input_descriptor}};
 }
 
 std::string as_given(std::string message, const Input& input) {
@@ -88,15 +104,15 @@ json done(const std::map<std::string, ReaderTask>& tasks, const json& request) {
     const SandboxLimits limits{request.at("memory_bytes").get<uint64_t>(),
                                request.at("file_bytes").get<uint64_t>(),
                                request.at("processor_s").get<unsigned>()};
-    enter_sandbox(input_descriptor, output_descriptor, limits);
+    enter_sandbox(input.readable, output_descriptor, limits);
     return {{"answer", tasks.at(request.at("task"))(input.path, request.at("options"), reporting())}};
   } catch (const Error& error) {
     return failed(error.kind(), error.what());
   } catch (const std::bad_alloc&) {
     return failed(ErrorKind::invalid_input,
-                  input.inside + " does not fit into the memory that is free for reading");
+                  input.path.string() + " does not fit into the memory that is free for reading");
   } catch (const std::exception& error) {
-    return failed(ErrorKind::invalid_input, input.inside + " cannot be read: " + error.what());
+    return failed(ErrorKind::invalid_input, input.path.string() + " cannot be read: " + error.what());
   }
 }
 

@@ -79,7 +79,7 @@ void allow_below(int rules, int descriptor, uint64_t rights, const char* what) {
   if (::syscall(SYS_landlock_add_rule, rules, LANDLOCK_RULE_PATH_BENEATH, &rule, 0) != 0) fail(what);
 }
 
-void close_files_off(int version, int input, int output) {
+void close_files_off(int version, std::span<const int> inputs, int output) {
   constexpr uint64_t read = LANDLOCK_ACCESS_FS_READ_FILE, list = LANDLOCK_ACCESS_FS_READ_DIR;
   constexpr uint64_t connect_and_bind = 3, signals_and_abstract_sockets = 3;
   const uint64_t all = all_file_rights(version);
@@ -87,9 +87,11 @@ void close_files_off(int version, int input, int output) {
   const size_t known = version >= 6 ? 24 : version >= 4 ? 16 : 8;
   const FileDescriptor rules{static_cast<int>(::syscall(SYS_landlock_create_ruleset, &wanted, known, 0))};
   if (!rules) fail("Landlock");
-  struct stat status {};
-  if (::fstat(input, &status) != 0) fail("its input");
-  allow_below(rules.get(), input, S_ISDIR(status.st_mode) ? read | list : read, "its input");
+  for (const int input : inputs) {
+    struct stat status {};
+    if (::fstat(input, &status) != 0) fail("its input");
+    allow_below(rules.get(), input, S_ISDIR(status.st_mode) ? read | list : read, "its input");
+  }
   allow_below(rules.get(), output,
               all & ~uint64_t{LANDLOCK_ACCESS_FS_EXECUTE | LANDLOCK_ACCESS_FS_MAKE_CHAR |
                               LANDLOCK_ACCESS_FS_MAKE_BLOCK | LANDLOCK_ACCESS_FS_MAKE_SOCK |
@@ -166,12 +168,12 @@ std::string sandbox_in_words(const SandboxSupport& support) {
          ": a file that takes the reader over could read other files; take files only from people you trust";
 }
 
-void enter_sandbox(int input, int output, const SandboxLimits& limits) {
+void enter_sandbox(std::span<const int> inputs, int output, const SandboxLimits& limits) {
   step_back();
   set_limits(limits);
   if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) fail("privileges");
   const SandboxSupport support = sandbox_support();
-  if (support.landlock > 0) close_files_off(support.landlock, input, output);
+  if (support.landlock > 0) close_files_off(support.landlock, inputs, output);
   if (support.seccomp) close_calls_off();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <string>
 
 namespace ream::isolation {
@@ -19,10 +20,10 @@ SandboxSupport sandbox_support();
 /// In one line for people: what protects this machine from files that it reads.
 std::string sandbox_in_words(const SandboxSupport& support);
 
-/// From now on this process opens only what lies at or below `input` (to read) and `output` (to read and
-/// write), both open descriptors; has no network, starts no program, signals nobody; stays within the limits;
+/// From now on this process opens only what lies at or below `inputs` (to read) and `output` (to read and
+/// write), all open descriptors; has no network, starts no program, signals nobody; stays within the limits;
 /// runs when nothing else wants the processor, and is the first to go when memory runs out. What the kernel
 /// does not have is left out. Throws Error io when the kernel has something and refuses it.
-void enter_sandbox(int input, int output, const SandboxLimits& limits);
+void enter_sandbox(std::span<const int> inputs, int output, const SandboxLimits& limits);
 
 }  // namespace ream::isolation

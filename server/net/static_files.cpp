@@ -13,7 +13,8 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void refuse_page(const std::string& path) {
-  throw Error(ErrorKind::not_found, "no such page: " + path);
+  throw Error(ErrorKind::not_found,
+              (path.starts_with("/api/") ? "no such endpoint: " : "no such page: ") + path);
 }
 
 /// Relative path without any segment that could lead out of the folder or to a hidden file.

@@ -146,6 +146,10 @@ void warn_of_value_type(HuVolume& volume, const DicomSlice& slice) {
                               ", not HU; thresholds and densities will not fit");
 }
 
+std::string counted_slices(const SliceStack& stack) {
+  return std::to_string(stack.slices.size()) + (stack.slices.size() == 1 ? " slice" : " slices");
+}
+
 }  // namespace
 
 HuVolume read_dicom_folder(const fs::path& path, const ReadOptions& options, const Progress& progress) {
@@ -158,7 +162,7 @@ HuVolume read_dicom_folder(const fs::path& path, const ReadOptions& options, con
   if (scan.series.size() > 1)
     volume.warnings.push_back("there are " + std::to_string(scan.series.size()) + " CT series; " +
                               (options.series_uid.empty() ? "the largest" : "the chosen one") +
-                              " was taken, " + std::to_string(stack.slices.size()) + " slices");
+                              " was taken, " + counted_slices(stack));
   volume.warnings.insert(volume.warnings.end(), stack.warnings.begin(), stack.warnings.end());
   load_stack(volume, stack, path.string(), options.max_bytes, part_of(progress, scanning_share, 1.0));
   const DicomSlice& first = stack.slices.front();
@@ -166,7 +170,7 @@ HuVolume read_dicom_folder(const fs::path& path, const ReadOptions& options, con
   warn_of_value_type(volume, first);
   warn_of_thickness(volume, first.spacing_mm.z());
   if (options.keep_names) volume.patient = first.patient;
-  volume.source = "DICOM series of " + std::to_string(stack.slices.size()) + " slices";
+  volume.source = "DICOM series of " + counted_slices(stack);
   return volume;
 }
 

@@ -10,6 +10,7 @@
 #include "reader/mesh_file.hpp"
 #include "reader/session_archive.hpp"
 #include "reader/vibration_file.hpp"
+#include "reader/volume_header.hpp"
 
 namespace ream::reader {
 namespace fs = std::filesystem;
@@ -41,6 +42,10 @@ json ct_task(const fs::path& input, const json& options, const Progress& progres
     read.max_bytes = options.at("max_bytes");
     return written(read_ct_files(path, read, reading));
   });
+}
+
+json voxel_file_task(const fs::path& input, const json&, const Progress&) {
+  return {{"name", voxel_file_named_in(input)}};
 }
 
 json labels_task(const fs::path& input, const json& options, const Progress&) {
@@ -97,5 +102,6 @@ int main() {
                             {"gray", reader::gray_task},
                             {"mesh", reader::mesh_task},
                             {"session", reader::session_task},
+                            {"voxel_file", reader::voxel_file_task},
                             {"vibration", reader::vibration_task}});
 }

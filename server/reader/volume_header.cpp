@@ -378,7 +378,23 @@ bool says_yes(const std::string& word) {
   return !word.empty() && std::string_view("Tt1").find(word[0]) != std::string_view::npos;
 }
 
+bool is_meta(const fs::path& path) {
+  const std::string name = lower(path.filename().string());
+  return name.ends_with(".mha") || name.ends_with(".mhd");
+}
+
+TextHeader text_header_of(const fs::path& path) {
+  const bool meta = is_meta(path);
+  return text_header(path, meta ? '=' : ':', meta ? "ElementDataFile" : "");
+}
+
 }  // namespace
+
+std::string voxel_file_named_in(const fs::path& header) {
+  const TextHeader read = text_header_of(header);
+  const auto named = read.fields.find(is_meta(header) ? "ElementDataFile" : "datafile");
+  return named == read.fields.end() || lower(named->second) == "local" ? "" : named->second;
+}
 
 VolumeHeader::VolumeHeader(const fs::path& path) : path_(path), readable_(path), voxels_(path) {
   const std::string name = lower(path.filename().string());
@@ -387,13 +403,12 @@ VolumeHeader::VolumeHeader(const fs::path& path) : path_(path), readable_(path),
     check_nifti();
     return;
   }
-  if (name.ends_with(".mha") || name.ends_with(".mhd")) format_ = Format::meta;
-  const bool meta = format_ == Format::meta;
-  TextHeader header = text_header(path, meta ? '=' : ':', meta ? "ElementDataFile" : "");
+  if (is_meta(path)) format_ = Format::meta;
+  TextHeader header = text_header_of(path);
   fields_ = std::move(header.fields);
   lines_ = std::move(header.lines);
   end_ = header.end;
-  if (meta)
+  if (format_ == Format::meta)
     check_meta();
   else
     check_nrrd();

@@ -54,4 +54,8 @@ class VolumeHeader {
   std::vector<std::string> warnings_;
 };
 
+/// The name that the header of a NRRD or MetaImage file gives for the file with the voxels; empty: they are
+/// in the file itself. Nothing but lines is looked at. Errors as VolumeHeader's.
+std::string voxel_file_named_in(const std::filesystem::path& header);
+
 }  // namespace ream::reader

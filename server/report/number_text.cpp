@@ -1,6 +1,5 @@
 #include "report/number_text.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>

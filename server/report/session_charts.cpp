@@ -1,7 +1,6 @@
 #include "report/session_charts.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "report/number_text.hpp"
 #include "score/handling.hpp"

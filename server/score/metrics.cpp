@@ -1,6 +1,5 @@
 #include "score/metrics.hpp"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/hash.hpp"

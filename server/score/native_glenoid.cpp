@@ -155,6 +155,9 @@ constexpr double cortex_across_mm = 35.0, cortex_before_mm = 12.0, cortex_behind
 constexpr double face_thickness_mm = 2.0;
 
 RayLattice lattice_for(const Task& task, double reach_mm, double spacing_mm) {
+  // Five times as wide as a glenoid is high; rays of wider ones would fill the memory.
+  if (reach_mm > 110.0)
+    throw Error(ErrorKind::invalid_input, "the reamer is too wide for a glenoid; at most 200 mm across");
   if (task.plan)
     return {task.plan->entry_mm, task.plan->axis_direction.normalized(), task.anatomy.side, reach_mm,
             spacing_mm};

@@ -53,14 +53,22 @@ AchievedFace face_left_by(const NativeGlenoid& native, double apex_mm) {
 
 }  // namespace
 
-PlannedFace planned_face(const NativeGlenoid& native) {
-  PlannedFace planned;
+std::optional<PlannedCut> planned_cut(const NativeGlenoid& native) {
   const auto& plan = native.task().plan;
   const std::optional<double> contact = plan ? first_contact_mm(native) : std::nullopt;
-  if (!contact) return planned;
-  CutLine line;
-  line.apex_mm.z() = line.deepest_mm = *contact + plan->depth_mm;
-  AchievedFace face = face_left_by(native, line.deepest_mm);
+  if (!contact) return std::nullopt;
+  PlannedCut cut;
+  cut.line.apex_mm.z() = cut.line.deepest_mm = *contact + plan->depth_mm;
+  cut.face = face_left_by(native, cut.line.deepest_mm);
+  return cut;
+}
+
+PlannedFace planned_face(const NativeGlenoid& native) {
+  PlannedFace planned;
+  std::optional<PlannedCut> cut = planned_cut(native);
+  if (!cut) return planned;
+  AchievedFace& face = cut->face;
+  const CutLine& line = cut->line;
   const Component component(native, face, line);
   if (component.seated()) planned.seating_percent = 100.0 * component.supported_share();
   planned.plate_percent = plate_preserved_percent(native, face.removed_mm, component.footprint());

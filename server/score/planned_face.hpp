@@ -26,6 +26,14 @@ struct PlannedFace {
 
 PlannedFace planned_face(const NativeGlenoid& native);
 
+/// The face as the planned reamer leaves it, and the plan's axis at its deepest in the frame of the lattice.
+/// Empty without a plan, or where its reamer does not touch the face.
+struct PlannedCut {
+  AchievedFace face;
+  CutLine line;
+};
+std::optional<PlannedCut> planned_cut(const NativeGlenoid& native);
+
 /// Share of a footprint in which at least half of the subchondral plate is left, percent; empty without rays.
 std::optional<double> plate_preserved_percent(const NativeGlenoid& native,
                                               const std::vector<double>& removed_mm,

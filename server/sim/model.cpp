@@ -1,8 +1,5 @@
 #include "sim/model.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/error.hpp"
 #include "core/huge_pages.hpp"
 #include "force/edge_load.hpp"

@@ -14,12 +14,10 @@
 namespace ream::statistics {
 namespace bm = boost::math;
 
-double normal_cdf(double z) { return bm::cdf(bm::normal(), z); }
 double normal_density(double z) { return bm::pdf(bm::normal(), z); }
 double normal_quantile(double p) { return bm::quantile(bm::normal(), p); }
 double two_sided_normal_p(double z) { return 2.0 * bm::cdf(bm::normal(), -std::abs(z)); }
 
-double t_cdf(double t, double freedom) { return bm::cdf(bm::students_t(freedom), t); }
 double t_quantile(double p, double freedom) { return bm::quantile(bm::students_t(freedom), p); }
 double two_sided_t_p(double t, double freedom) {
   return std::isinf(t) ? 0.0 : 2.0 * bm::cdf(bm::students_t(freedom), -std::abs(t));

@@ -6,13 +6,11 @@ namespace ream::statistics {
 /// Distributions of Boost.Math. Degrees of freedom may be fractions; they are over 0. Probabilities that go
 /// into a quantile lie between 0 and 1, both excluded.
 
-double normal_cdf(double z);
 double normal_density(double z);
 double normal_quantile(double p);
 /// Chance of a normal deviate farther from 0 than `z` is.
 double two_sided_normal_p(double z);
 
-double t_cdf(double t, double freedom);
 double t_quantile(double p, double freedom);
 /// Chance that Student's t is farther from 0 than `t`; 0 for an infinite one.
 double two_sided_t_p(double t, double freedom);

@@ -1,7 +1,5 @@
 #include "statistics/intraclass.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/error.hpp"

@@ -61,14 +61,4 @@ Answer<BinomialTest> binomial_test(size_t successes, size_t trials, double expec
   return {test, ""};
 }
 
-Answer<Discriminability> two_choice_d_prime(size_t right, size_t trials, double confidence) {
-  if (trials == 0) return {std::nullopt, "no trial"};
-  check_counts(right, trials);
-  if (right == 0 || right == trials) return {std::nullopt, "with all choices right, or none, d' has no end"};
-  const Interval share = clopper_pearson_interval(right, trials, confidence);
-  return {Discriminability{d_prime_of_share(static_cast<double>(right) / static_cast<double>(trials)),
-                           {d_prime_of_share(share.low), d_prime_of_share(share.high)}},
-          ""};
-}
-
 }  // namespace ream::statistics

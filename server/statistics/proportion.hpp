@@ -1,6 +1,5 @@
 #pragma once
 #include <cstddef>
-#include <optional>
 
 #include "statistics/estimate.hpp"
 
@@ -26,14 +25,5 @@ Answer<BinomialTest> binomial_test(size_t successes, size_t trials, double expec
 /// Sensitivity of somebody who chooses one of two, without bias to a side: d' = sqrt(2) z(share of right
 /// choices) (Green & Swets 1966; Macmillan & Creelman, Detection Theory, chapter 7); infinite at 0 and 1.
 double d_prime_of_share(double right);
-
-/// The same by counts. The interval is that of Clopper & Pearson, transformed; a bound is infinite where the
-/// share's bound is 0 or 1.
-struct Discriminability {
-  double d_prime = 0.0;
-  Interval interval;
-};
-/// Without an answer when all choices, or none, are right: d' is then infinite.
-Answer<Discriminability> two_choice_d_prime(size_t right, size_t trials, double confidence = 0.95);
 
 }  // namespace ream::statistics

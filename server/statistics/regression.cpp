@@ -29,19 +29,4 @@ Regression regression(std::span<const double> x, std::span<const double> y) {
   return r;
 }
 
-Prediction prediction_95(std::span<const double> x, std::span<const double> y, double at) {
-  const Regression r = regression(x, y);
-  const double mx = mean_of(x), n = static_cast<double>(x.size());
-  double left = 0.0, xx = 0.0;
-  for (size_t i = 0; i < x.size(); ++i) {
-    const double off = y[i] - (r.slope * x[i] + r.intercept);
-    left += off * off;
-    xx += (x[i] - mx) * (x[i] - mx);
-  }
-  const double deviation_of_one = std::sqrt(left / (n - 2.0) * (1.0 + 1.0 / n + (at - mx) * (at - mx) / xx));
-  const double reach = t_quantile(0.975, n - 2.0) * deviation_of_one;
-  const double middle = r.slope * at + r.intercept;
-  return {middle - reach, middle, middle + reach};
-}
-
 }  // namespace ream::statistics

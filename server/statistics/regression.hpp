@@ -14,12 +14,4 @@ struct Regression {
 /// Needs as many x as y, at least three, and neither all equal.
 Regression regression(std::span<const double> x, std::span<const double> y);
 
-struct Prediction {
-  double low = 0.0, middle = 0.0, high = 0.0;
-};
-
-/// 95 % prediction interval of one new y at `at` by the regression of y on x: of many such experiments, 95 %
-/// hold the next y. Needs at least three points.
-Prediction prediction_95(std::span<const double> x, std::span<const double> y, double at);
-
 }  // namespace ream::statistics

@@ -62,4 +62,9 @@ DatabaseUrl parse_database_url(const std::string& text) {
               "a database is named as sqlite:FILE or postgresql://user@host:port/name, without spaces");
 }
 
+bool is_there(const DatabaseUrl& url) {
+  std::error_code failed;
+  return url.postgresql || std::filesystem::exists(url.file, failed);
+}
+
 }  // namespace ream::store

@@ -16,4 +16,7 @@ struct DatabaseUrl {
 /// Error usage, which never repeats a password, for anything else.
 DatabaseUrl parse_database_url(const std::string& text);
 
+/// Of SQLite whether the file is there, so that nothing is made by looking; one of PostgreSQL is taken to be.
+bool is_there(const DatabaseUrl& url);
+
 }  // namespace ream::store

@@ -1,10 +1,13 @@
 #include "store/migrations.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <migration_files.hpp>
 #include <set>
 #include <string_view>
 
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "store/connection_pool.hpp"
 #include "store/database_url.hpp"
@@ -12,6 +15,7 @@
 #include "store/sql.hpp"
 
 namespace ream::store {
+namespace fs = std::filesystem;
 namespace {
 
 /// "001_sessions.sql" -> 1.
@@ -55,6 +59,34 @@ void run_statements(Sql& sql, const std::string& statements) {
   }
 }
 
+/// Their numbers, in order.
+std::vector<int> missing_steps(const DatabaseUrl& url) {
+  ConnectionPool pool(url, {});
+  const auto lease = pool.take();
+  begin_reading(lease->sql());
+  std::set<int> before;
+  if (!columns_of(lease->sql(), "migrations").empty()) before = done(lease->sql());
+  lease->sql() << "ROLLBACK";
+  std::vector<int> missing;
+  for (const Migration& step : migrations())
+    if (before.erase(step.number) == 0) missing.push_back(step.number);
+  refuse_newer(before);
+  return missing;
+}
+
+/// As it is at this moment, also while others write to it. `to`: an empty file.
+void copy_sqlite_file(const DatabaseUrl& url, const fs::path& to) {
+  ConnectionPool pool(url, {});
+  const auto lease = pool.take();
+  const std::string name = to.string();
+  try {
+    lease->sql() << "VACUUM INTO :name", use(name);
+  } catch (const soci::soci_error& error) {
+    throw Error(ErrorKind::io, "cannot keep a copy of the database " + url.shown + " at " + name + ": " +
+                                   error.what() + "; make room on the disk");
+  }
+}
+
 }  // namespace
 
 const std::vector<Migration>& migrations() {
@@ -90,18 +122,27 @@ void migrate(Sql& sql) {
 
 size_t missing_migrations(const std::string& url) {
   const DatabaseUrl parsed = parse_database_url(url);
+  return is_there(parsed) ? missing_steps(parsed).size() : migrations().size();
+}
+
+fs::path keep_before_migration(const std::string& url) {
+  const DatabaseUrl parsed = parse_database_url(url);
+  if (parsed.postgresql || !is_there(parsed)) return {};
+  const std::vector<int> missing = missing_steps(parsed);
+  if (missing.empty() || missing.size() == migrations().size()) return {};
+  std::array<char, 8> number{};
+  std::snprintf(number.data(), number.size(), "%03d", missing.front());
+  const fs::path kept = parsed.file.string() + ".before-" + number.data();
   std::error_code failed;
-  if (!parsed.postgresql && !std::filesystem::exists(parsed.file, failed)) return migrations().size();
-  ConnectionPool pool(parsed, {});
-  const auto lease = pool.take();
-  begin_reading(lease->sql());
-  std::set<int> before;
-  if (!columns_of(lease->sql(), "migrations").empty()) before = done(lease->sql());
-  lease->sql() << "ROLLBACK";
-  size_t missing = 0;
-  for (const Migration& step : migrations()) missing += before.erase(step.number) == 0 ? 1 : 0;
-  refuse_newer(before);
-  return missing;
+  if (fs::exists(kept, failed)) return {};
+  AtomicFile copy(kept);
+  copy_sqlite_file(parsed, copy.path());
+  // Another process may have run the steps meanwhile; then it has kept its own copy.
+  DatabaseUrl copied = parsed;
+  copied.file = copy.path();
+  if (missing_steps(copied) != missing) return {};
+  copy.commit();
+  return kept;
 }
 
 }  // namespace ream::store

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -29,5 +30,11 @@ void migrate(Sql& sql);
 /// (store::Database); this changes no table, and makes no database. Errors: those of opening it, and conflict
 /// when a newer build has changed its tables.
 size_t missing_migrations(const std::string& url);
+
+/// To be called before an older database is opened, which changes its tables: of a SQLite file a copy is kept
+/// beside it, `<file>.before-NNN` with the number of the first step that it lacks, so that the older version
+/// can go on with it. Returns the copy's path; empty where none was made, as the database is new, up to date
+/// or of PostgreSQL, or the copy is there already. Errors: those of missing_migrations(); io.
+std::filesystem::path keep_before_migration(const std::string& url);
 
 }  // namespace ream::store

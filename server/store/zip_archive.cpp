@@ -67,7 +67,7 @@ std::unique_ptr<zip_t, Discard> open_to_read(const fs::path& path) {
   if (!archive && code == ZIP_ER_OPEN)
     throw Error(ErrorKind::io, "cannot read " + path.string() + ": " + std::strerror(errno));
   if (!archive)
-    throw Error(ErrorKind::invalid_input, path.string() + " is no whole zip archive: " + message_of(code));
+    throw Error(ErrorKind::invalid_input, path.string() + " is not a valid zip archive: " + message_of(code));
   return archive;
 }
 

@@ -1,8 +1,6 @@
 #pragma once
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "case/two_plates.hpp"

@@ -1,7 +1,7 @@
 #include "study/study_service.hpp"
 
 #include <algorithm>
-#include <set>
+#include <map>
 
 #include "access/role.hpp"
 #include "access/secret.hpp"

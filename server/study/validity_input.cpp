@@ -1,6 +1,5 @@
 #include "study/validity_input.hpp"
 
-#include <algorithm>
 #include <analysis.hpp>
 #include <optional>
 #include <set>

@@ -70,10 +70,8 @@ ValidityLine agreement_line(const std::string& measure, const RatingTable& table
   const auto icc = statistics::intraclass_correlation(table.rows());
   add_note(line, icc.note);
   if (!icc) return line;
-  add_value(line, "icc_single", icc->single);
-  add_interval(line, "icc_single", icc->single_interval);
-  add_value(line, "icc_average", icc->average);
-  add_interval(line, "icc_average", icc->average_interval);
+  add_estimate(line, "icc_single", icc->single, icc->single_interval);
+  add_estimate(line, "icc_average", icc->average, icc->average_interval);
   return line;
 }
 
@@ -127,8 +125,7 @@ ValidityLine checklist_line(const std::string& item, const RatingTable& table) {
   const Answer<statistics::Kappa> kappa = kappa_of(complete.rows, table.raters());
   add_note(line, kappa.note);
   if (!kappa) return line;
-  add_value(line, "kappa", kappa->kappa);
-  add_interval(line, "kappa", kappa->interval);
+  add_estimate(line, "kappa", kappa->kappa, kappa->interval);
   return line;
 }
 
@@ -146,17 +143,14 @@ void add_group(ValidityLine& line, const std::string& group, const std::vector<d
 void add_roc(ValidityLine& line, const Answer<statistics::RocArea>& roc) {
   add_note(line, roc.note);
   if (!roc) return;
-  add_value(line, "auc", roc->area);
-  add_interval(line, "auc", roc->interval);
+  add_estimate(line, "auc", roc->area, roc->interval);
   add_interval(line, "auc_bootstrap", roc->bootstrap);
   const statistics::BestCut& cut = roc->cut;
   add_value(line, "threshold", cut.threshold);
   add_value(line, "experts_at_least", cut.at_least ? 1.0 : 0.0);
   add_value(line, "youden_j", cut.youden_j);
-  add_value(line, "sensitivity", cut.sensitivity);
-  add_interval(line, "sensitivity", cut.sensitivity_interval);
-  add_value(line, "specificity", cut.specificity);
-  add_interval(line, "specificity", cut.specificity_interval);
+  add_estimate(line, "sensitivity", cut.sensitivity, cut.sensitivity_interval);
+  add_estimate(line, "specificity", cut.specificity, cut.specificity_interval);
 }
 
 ValidityLine known_group_line(const std::string& measure, const std::vector<double>& experts,
@@ -168,8 +162,7 @@ ValidityLine known_group_line(const std::string& measure, const std::vector<doub
   const auto welch = statistics::welch_test(experts, novices);
   add_note(line, welch.note);
   if (welch) {
-    add_value(line, "difference", welch->difference);
-    add_interval(line, "difference", welch->interval);
+    add_estimate(line, "difference", welch->difference, welch->interval);
     add_value(line, "welch_p", welch->p);
   }
   const auto ranks = statistics::mann_whitney_test(experts, novices);
@@ -179,8 +172,7 @@ ValidityLine known_group_line(const std::string& measure, const std::vector<doub
   add_note(line, effect.note);
   if (effect) {
     add_value(line, "cohens_d", effect->cohens_d);
-    add_value(line, "hedges_g", effect->hedges_g);
-    add_interval(line, "hedges_g", effect->g_interval);
+    add_estimate(line, "hedges_g", effect->hedges_g, effect->g_interval);
   }
   if (const auto delta = statistics::cliffs_delta(experts, novices))
     add_value(line, "cliffs_delta", delta->delta);
@@ -201,8 +193,7 @@ ValidityLine correlation_line(const std::vector<RatedSession>& sessions, const s
   const auto pearson = statistics::pearson(values, totals);
   add_note(line, pearson.note);
   if (!pearson) return line;
-  add_value(line, "pearson", pearson->r);
-  add_interval(line, "pearson", pearson->interval);
+  add_estimate(line, "pearson", pearson->r, pearson->interval);
   add_value(line, "pearson_p", pearson->p);
   const auto spearman = statistics::spearman(values, totals);
   add_note(line, spearman.note);
@@ -221,12 +212,10 @@ ValidityLine benchmark_line(const std::string& measure, const std::vector<double
   }
   const auto mean = statistics::mean_estimate(experts);
   add_note(line, mean.note);
-  add_value(line, "mean", mean->mean);
-  add_interval(line, "mean", mean->interval);
+  add_estimate(line, "mean", mean->mean, mean->interval);
   const auto median = statistics::median_estimate(experts);
   add_note(line, median.note);
-  add_value(line, "median", median->median);
-  add_interval(line, "median", median->interval);
+  add_estimate(line, "median", median->median, median->interval);
   return line;
 }
 
@@ -255,12 +244,9 @@ ValidityLine learning_line(const std::vector<RatedSession>& sessions, const std:
   const auto fit = statistics::learning_fit(attempts, means);
   add_note(line, fit.note);
   if (!fit) return line;
-  add_value(line, "start", fit->start);
-  add_interval(line, "start", fit->start_interval);
-  add_value(line, "plateau", fit->plateau);
-  add_interval(line, "plateau", fit->plateau_interval);
-  add_value(line, "rate", fit->rate);
-  add_interval(line, "rate", fit->rate_interval);
+  add_estimate(line, "start", fit->start, fit->start_interval);
+  add_estimate(line, "plateau", fit->plateau, fit->plateau_interval);
+  add_estimate(line, "rate", fit->rate, fit->rate_interval);
   return line;
 }
 
@@ -277,6 +263,12 @@ void add_interval(ValidityLine& line, const std::string& name, const std::option
   if (!interval) return;
   add_value(line, name + "_low", interval->low);
   add_value(line, name + "_high", interval->high);
+}
+
+void add_estimate(ValidityLine& line, const std::string& name, double value,
+                  const std::optional<Interval>& interval) {
+  add_value(line, name, value);
+  add_interval(line, name, interval);
 }
 
 void add_note(ValidityLine& line, const std::string& note) {

@@ -20,9 +20,12 @@ std::vector<ValidityLine> learning_lines(const std::vector<RatedSession>& sessio
 std::vector<ValidityLine> change_lines(const std::vector<RatedSession>& sessions);
 std::vector<ValidityLine> arm_difference_lines(const std::vector<RatedSession>& sessions);
 
-/// Adds a number, an interval ("name_low", "name_high"), or a sentence, unless it is empty or there already.
+/// Adds a number, an interval ("name_low", "name_high"), both, or a sentence, unless it is empty or there
+/// already.
 void add_value(ValidityLine& line, const std::string& name, double value);
 void add_interval(ValidityLine& line, const std::string& name,
+                  const std::optional<statistics::Interval>& interval);
+void add_estimate(ValidityLine& line, const std::string& name, double value,
                   const std::optional<statistics::Interval>& interval);
 void add_note(ValidityLine& line, const std::string& note);
 

@@ -58,8 +58,7 @@ ValidityLine change_line(const std::string& arm, const std::string& phase, const
   const auto change = statistics::paired_test(values.before, values.after);
   add_note(line, change.note);
   if (!change) return line;
-  add_value(line, "change", change->difference);
-  add_interval(line, "change", change->interval);
+  add_estimate(line, "change", change->difference, change->interval);
   add_value(line, "paired_p", change->p);
   return line;
 }
@@ -76,15 +75,13 @@ ValidityLine difference_line(const std::string& phase, const std::string& measur
   const auto change = statistics::difference_in_change(of_first, of_second);
   add_note(line, change.note);
   if (change) {
-    add_value(line, "difference", change->difference);
-    add_interval(line, "difference", change->interval);
+    add_estimate(line, "difference", change->difference, change->interval);
     add_value(line, "welch_p", change->p);
   }
   const auto adjusted = statistics::covariance_adjusted(of_first, of_second);
   add_note(line, adjusted.note);
   if (adjusted) {
-    add_value(line, "ancova", adjusted->difference);
-    add_interval(line, "ancova", adjusted->interval);
+    add_estimate(line, "ancova", adjusted->difference, adjusted->interval);
     add_value(line, "ancova_p", adjusted->p);
   }
   return line;

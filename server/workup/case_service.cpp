@@ -1,9 +1,9 @@
 #include "workup/case_service.hpp"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "case/measures.hpp"
 #include "case/plan.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -28,6 +28,12 @@ constexpr double read_share = 0.8;
 constexpr uint64_t always_taken_bytes = 32 << 20, max_packing = 16;
 constexpr size_t max_id_length = 60;
 constexpr double max_fine_voxels = 2.0e7;  // beyond, a surface is sampled every other voxel
+
+/// Whether the bone was built of what is segmented now.
+bool is_up_to_date(const ct::Workup& workup) {
+  return workup.built && workup.segmentation() &&
+         workup.built->segmentation_revision == workup.segmentation()->revision;
+}
 
 template <typename T>
 net::Bytes bytes_of(const std::vector<T>& values) {
@@ -228,10 +234,25 @@ case_::Plan CaseService::propose(const std::string& id, const case_::PlanTargets
 
 case_::PlanAssessment CaseService::assess(const std::string& id, const case_::Plan& plan) {
   const auto bone = surface_of(id);
-  std::optional<case_::GlenoidFrame> glenoid;
-  const fs::path folder = folder_of(id);
-  if (fs::exists(folder / "case.json")) glenoid = case_::load_case_description(folder).glenoid;
+  const std::optional<case_::GlenoidFrame> glenoid = built_glenoid(id);
   return case_::assess_plan(plan, landmarks(id), side_of(id), bone.get(), glenoid ? &*glenoid : nullptr);
+}
+
+std::optional<case_::GlenoidFrame> CaseService::built_glenoid(const std::string& id) const {
+  const fs::path folder = folder_of(id);
+  if (!fs::exists(folder / "case.json")) return std::nullopt;
+  return case_::load_case_description(folder).glenoid;
+}
+
+score::MetricResults CaseService::outcome(const std::string& id, const case_::Plan& plan,
+                                          shell::ToolProfile reamer) {
+  const fs::path folder = folder_of(id);
+  score::Task task{{side_of(id), landmarks(id), built_glenoid(id)}, plan, std::move(reamer)};
+  const bool is_built =
+      !ct::has_workup(folder) ? fs::exists(folder / "case.json") : is_up_to_date(ct::load_workup(folder));
+  if (is_built) return score::plan_outcome({task, case_::load_case(folder).bone});
+  task.anatomy.glenoid = case_::glenoid_frame(landmarks(id), task.anatomy.side);
+  return score::plan_outcome({task, *surface_of(id)});
 }
 
 case_::PlanAssessment CaseService::set_plan(const std::string& id, const case_::Plan& plan) {

@@ -9,6 +9,7 @@
 #include "ct/build/ct_workspace.hpp"
 #include "jobs/job_service.hpp"
 #include "net/message.hpp"
+#include "score/plan_outcome.hpp"
 #include "session/service/session_service.hpp"
 #include "workup/ct_cache.hpp"
 #include "workup/upload_store.hpp"
@@ -46,6 +47,9 @@ class CaseService {
   void set_landmarks(const std::string& id, const case_::Landmarks& landmarks);
   case_::Plan propose(const std::string& id, const case_::PlanTargets& targets);
   case_::PlanAssessment assess(const std::string& id, const case_::Plan& plan);
+  /// What the plan reaches with a reamer of that shape: of the bone that sessions begin with, where it was
+  /// built of what is segmented now, else of what is segmented.
+  score::MetricResults outcome(const std::string& id, const case_::Plan& plan, shell::ToolProfile reamer);
   /// Error conflict with the reason when the plan needs an override.
   case_::PlanAssessment set_plan(const std::string& id, const case_::Plan& plan);
 
@@ -65,6 +69,7 @@ class CaseService {
   std::string unused_id(const std::string& wanted) const;
   void require_no_sessions(const std::string& id, const std::string& what) const;
   CtCache::Bone surface_of(const std::string& id);
+  std::optional<case_::GlenoidFrame> built_glenoid(const std::string& id) const;
 
   const std::filesystem::path cases_folder_;
   const session::SessionService& sessions_;

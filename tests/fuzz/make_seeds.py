@@ -118,8 +118,30 @@ def backup() -> list[bytes]:
     ]
 
 
+def zstd_frame(data: bytes) -> bytes:
+    """Of 256 to 65,791 bytes, stored as they are."""
+    head = b"\x28\xb5\x2f\xfd\x60" + struct.pack("<H", len(data) - 256)
+    return head + struct.pack("<I", len(data) << 3 | 1)[:3] + data
+
+
+def bundle() -> list[bytes]:
+    about = b'{"format": "ream session bundle", "revision": 1, "session": "s1", "case": "demo"}'
+    session = b'{"id": "s1", "case": "demo", "title": "x", "state": "finished"}'
+    case = (
+        b'{"id": "a", "name": "a", "source": "a", "side": "right", "dims": [8, 8, 8], "spacing_mm": [1, 1, 1],'
+        b'"world_from_grid": {"rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "translation_mm": [0, 0, 0]},'
+        b'"cortical_threshold_g_cc": 1, "calibration": {"intercept_mg_cc": 0, "slope_mg_cc_per_hu": 1,'
+        b'"threshold_hu": 200}, "warnings": []}'
+    )
+    plan = b'{"entry_mm": [1, 2, 3], "axis_direction": [0, 0, 1], "depth_mm": 2, "reamer": "sphere 24"}'
+    voxels = zstd_frame(bytes(range(256)) * 2)
+    recording = (GOLDEN / "recording-4.ream").read_bytes()
+    whole = [about, session, recording, case, plan, voxels, voxels]
+    return [b"".join(map(piece, members)) for members in (whole, whole[:3], [about, b"", recording, case, b"", voxels])]
+
+
 def main() -> None:
-    for make in (http, headers, device_messages, websocket, json, recording, backup, *file_seeds.ALL):
+    for make in (http, headers, device_messages, websocket, json, recording, backup, bundle, *file_seeds.ALL):
         folder = Path(sys.argv[1]) / make.__name__
         folder.mkdir(parents=True, exist_ok=True)
         for number, seed in enumerate(make(), 1):

@@ -40,6 +40,8 @@ class ExecutedPlan {
         1.0, nullptr);
   }
 
+  const score::NativeGlenoid& native() const { return native_; }
+
   /// metrics.json of one that ended before anything was touched.
   nlohmann::json untouched() const {
     const score::MetricsAccumulator ticks(bone_.grid.voxel_volume_mm3(), plan_pose().inverse());

@@ -5,6 +5,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/terminal_progress.hpp"
+#include "app/open_database.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -63,6 +64,9 @@ void make_benchmark(const BenchmarkOptions& options, const GlobalOptions& global
   const score::Density density = score::density_from_text(options.density);
   const score::Rubric rubric = score::find_rubric(options.rubric, score::RubricStore(rubrics_folder(data)));
   catch_interrupts();
+  std::vector<std::string> all = options.experts;
+  all.insert(all.end(), options.novices.begin(), options.novices.end());
+  note_reading(global.db, data, "session.score.read", all);
   const auto experts = measured(options.experts, options, data);
   const score::Benchmark benchmark = score::make_benchmark(options.name, experts);
   json cuts = json::array();

@@ -102,8 +102,7 @@ Finding examine_space(const DoctorRequest& request) {
 Finding examine_database(const DoctorRequest& request) {
   const std::string url = database_url(request.db, request.data);
   const store::DatabaseUrl parsed = store::parse_database_url(url);
-  std::error_code failed;
-  if (!parsed.postgresql && !fs::exists(parsed.file, failed))
+  if (!store::is_there(parsed))
     return {"database", State::good, parsed.shown + " is made when the server starts.", ""};
   const size_t missing = store::missing_migrations(url);
   if (missing > 0)

@@ -6,6 +6,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/terminal_progress.hpp"
+#include "app/open_database.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/leftovers.hpp"
@@ -41,8 +42,10 @@ void export_session(const ExportOptions& options, const GlobalOptions& global) {
                 "--rubric and --benchmark are for reports, and " + options.out.string() + " will be none");
   catch_interrupts();
   remove_leftovers_beside(options.out);
+  const fs::path data = data_folder(global.data);
+  note_reading(global.db, data, "session.export", {options.session, options.case_name});
   const TerminalProgress progress;
-  format.write(request_of(options, data_folder(global.data)), options.out, std::cref(progress));
+  format.write(request_of(options, data), options.out, std::cref(progress));
   if (global.json)
     std::cout << nlohmann::json{{"out", options.out.string()}}.dump() << '\n';
   else

@@ -10,6 +10,7 @@
 #include "app/cli/terminal_progress.hpp"
 #include "app/mesh_source.hpp"
 #include "app/numbers.hpp"
+#include "app/open_database.hpp"
 #include "core/clock.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
@@ -152,7 +153,9 @@ void femesh(const FemeshOptions& options, const GlobalOptions& global) {
   fe::MeshOptions mesh = mesh_options(options);
   const auto start = SteadyClock::now();
   const TerminalProgress progress;
-  const MeshSource source{options.input, options.case_name, options.threshold, data_folder(global.data)};
+  const fs::path data = data_folder(global.data);
+  note_reading(global.db, data, "data.mesh", {options.input, options.case_name});
+  const MeshSource source{options.input, options.case_name, options.threshold, data};
   fe::ElementModel model = open_mesh_source(source, budget, part_of(std::cref(progress), 0.0, 0.3));
   mesh.rule.law = law_for(options, model);
   fe::ElementModel about;

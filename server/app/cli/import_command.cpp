@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <functional>
 #include <iostream>
 #include <memory>

@@ -84,8 +84,9 @@ int main(int argc, char** argv) {
   CLI::App app("ream: a training simulator for glenoid reaming");
   ream::app::GlobalOptions global;
   add_commands(app, global);
-  for (const char* writing : {"serve", "simulate", "phantom", "import", "plan", "score", "benchmark",
-                              "replay", "devices", "audit", "user", "backup", "restore"})
+  for (const char* writing :
+       {"serve", "simulate", "phantom", "import", "plan", "score", "benchmark", "replay", "export", "render",
+        "femesh", "devices", "audit", "user", "backup", "restore"})
     app.get_subcommand(writing)->preparse_callback([](size_t) { ream::restrict_new_files_to_owner(); });
   ream::take_failed_writes_as_errors();
   ream::device::take_force_away_on_crash();

@@ -127,7 +127,7 @@ void add_phantom_command(CLI::App& app, GlobalOptions& global) {
           "--type", options->type,
           "Walch's A1, A2 (worn in the centre), B1 (head slid back), B2 (biconcave), B3 (worn behind), "
           "C1 (dysplastic) or D (anteverted); osteophytes (at the rim), osteoporotic")
-      ->check(CLI::IsMember(ct::phantom_type_texts()))
+      ->check(CLI::IsMember(ct::phantom_type_texts(), CLI::ignore_case))
       ->capture_default_str();
   command
       ->add_option(

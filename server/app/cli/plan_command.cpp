@@ -16,6 +16,8 @@
 #include "core/log.hpp"
 #include "core/units.hpp"
 #include "ct/phantom/phantom_case.hpp"
+#include "report/number_text.hpp"
+#include "score/plan_outcome.hpp"
 #include "session/simulation/reamer.hpp"
 #include "shell/reamer_library.hpp"
 #include "shell/tool.hpp"
@@ -134,8 +136,19 @@ case_::Plan changed_plan(const PlanOptions& options, const Patient& patient) {
   return plan;
 }
 
+/// What the plan reaches where it is carried out exactly.
+void print(const score::MetricResults& outcome) {
+  if (!outcome.value("footprint_area_mm2")) log::warn("the reamer does not touch the face of the glenoid");
+  if (outcome.value("parts_through_vault").value_or(0.0) > 0.0)
+    log::warn("a peg or keel of the implant perforates the vault");
+  for (const std::string_view key : score::outcome_metrics)
+    if (const auto value = outcome.value(key))
+      std::cout << "  " << score::find_metric(key)->name << ": "
+                << report::with_unit(*value, score::find_metric(key)->unit) << '\n';
+}
+
 void print(const case_::Plan& plan, const case_::PlanAssessment& assessment,
-           const std::filesystem::path& folder) {
+           const score::MetricResults& outcome, const std::filesystem::path& folder) {
   std::cout << "entry " << plan.entry_mm.transpose() << " mm, direction " << plan.axis_direction.transpose()
             << ", depth " << plan.depth_mm << " mm, reamer " << plan.reamer;
   if (plan.pilot_hole)
@@ -147,6 +160,8 @@ void print(const case_::Plan& plan, const case_::PlanAssessment& assessment,
               << case_::inclination_in_words(*assessment.inclination_before_rad)
               << "; after: " << case_::version_in_words(*assessment.version_after_rad) << ", "
               << case_::inclination_in_words(*assessment.inclination_after_rad) << '\n';
+  std::cout << "predicted, if it is carried out exactly:\n";
+  print(outcome);
   std::cout << (folder / "plan.json").string() << '\n';
 }
 
@@ -198,12 +213,16 @@ void plan_case(PlanOptions options, const GlobalOptions& global) {
     throw Error(
         ErrorKind::conflict,
         "this would change the plan of the built-in demo for everybody who uses this data folder: --replace");
+  const score::Task task{
+      {c.side, landmarks, c.glenoid}, plan, session::tool_asked_for(plan.reamer, data).profile};
+  const score::MetricResults outcome = score::plan_outcome({task, c.bone});
   if (!options.landmarks.empty()) case_::save_landmarks(landmarks, folder);
   case_::save_plan(plan, folder);
   for (const std::string& warning : assessment.warnings) log::warn(warning);
-  if (!global.json) return print(plan, assessment, folder);
+  if (!global.json) return print(plan, assessment, outcome, folder);
   nlohmann::json answer = case_::to_json(plan);
   answer["assessment"] = case_::to_json(assessment);
+  answer["outcome"] = score::outcome_json(outcome);
   answer["measures"] = case_::to_json(case_::measure(landmarks, c.side));
   std::cout << answer.dump() << '\n';
 }

@@ -5,6 +5,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/terminal_progress.hpp"
+#include "app/open_database.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "session/export/export_formats.hpp"
@@ -44,6 +45,7 @@ void render(const RenderOptions& options, const GlobalOptions& global) {
     throw Error(ErrorKind::usage, options.out.string() + ": pictures are written as .png");
   catch_interrupts();
   const fs::path data = data_folder(global.data);
+  note_reading(global.db, data, is_case(options.what, data) ? "case.read" : "session.export", {options.what});
   if (is_case(options.what, data))
     render_case(options.what, data, options.out);
   else

@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <iostream>
@@ -8,6 +7,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/terminal_progress.hpp"
+#include "app/open_database.hpp"
 #include "core/clock.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
@@ -112,7 +112,7 @@ void verify(const ReplayOptions& options, const GlobalOptions& global, const rec
     return session::verify_replay(recording, std::move(bone_case), request);
   }();
   json answer = about(recording, found.ticks);
-  answer["verified"] = !found.difference.has_value();
+  answer["verified"] = !found.difference && recording.log().damage().empty();
   answer["backend"] = found.backend;
   answer["session_hash"] = to_hex(found.session_hash);
   answer["grid_hash"] = to_hex(found.grid_hash);
@@ -125,6 +125,7 @@ void verify(const ReplayOptions& options, const GlobalOptions& global, const rec
 void replay(const ReplayOptions& options, const GlobalOptions& global) {
   catch_interrupts();
   const auto data = data_folder(global.data);
+  note_reading(global.db, data, "session.replay", {options.recording});
   // All chunks are looked at first, so that what comes before damage is gone through to its end.
   const record::Recording recording(session::recording_path(options.recording, data),
                                     record::Recording::Trust::checked);

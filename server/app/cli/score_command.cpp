@@ -6,6 +6,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/print_score.hpp"
 #include "app/cli/terminal_progress.hpp"
+#include "app/open_database.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -63,9 +64,12 @@ std::vector<std::string> names_of(const ScoreOptions& options, const fs::path& d
   return names;
 }
 
-std::vector<session::Rescored> rescored(const ScoreOptions& options, const fs::path& data) {
+std::vector<session::Rescored> rescored(const ScoreOptions& options, const GlobalOptions& global,
+                                        const fs::path& data) {
   const std::vector<std::string> names = names_of(options, data);
   catch_interrupts();
+  note_reading(global.db, data, options.save ? "session.score" : "session.score.read", names);
+  note_reading(global.db, data, "case.read", {options.case_name});
   const TerminalProgress progress;
   return session::rescore(names, options.case_name, data, std::cref(progress));
 }
@@ -124,7 +128,7 @@ void print_all(const std::vector<Judged>& all, const nlohmann::json& failed, con
 void score_sessions(const ScoreOptions& options, const GlobalOptions& global) {
   const fs::path data = data_folder(global.data);
   const session::Judge judge = judge_of(options, data);
-  const std::vector<session::Rescored> scored = rescored(options, data);
+  const std::vector<session::Rescored> scored = rescored(options, global, data);
   std::vector<Judged> all;
   nlohmann::json failed = nlohmann::json::array();
   for (const session::Rescored& one : scored) {

@@ -1,6 +1,5 @@
 #include "collide/contact/broad_phase.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace ream::collide {

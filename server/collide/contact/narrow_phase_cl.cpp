@@ -1,7 +1,6 @@
 #include "collide/contact/narrow_phase_cl.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 #include "collide/contact/contact_schedule.hpp"
 #include "collide/contact/surface_judge.hpp"

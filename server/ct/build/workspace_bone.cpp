@@ -1,7 +1,5 @@
 #include "ct/build/ct_workspace.hpp"
 
-#include <algorithm>
-
 #include "case/measures.hpp"
 #include "core/error.hpp"
 #include "ct/build/bone_from_mask.hpp"

@@ -9,8 +9,8 @@
 #include "core/error.hpp"
 #include "core/file_descriptor.hpp"
 #include "core/json_reader.hpp"
-#include "ct/read/ct_file_names.hpp"
 #include "ct/read/volume_answer.hpp"
+#include "ct/read/volume_job.hpp"
 #include "isolation/reader_process.hpp"
 
 namespace ream::ct {
@@ -28,11 +28,7 @@ voxel::GrayScale scale_from(const nlohmann::json& answer) {
 
 isolation::ReaderResult read_codes(const fs::path& path, uint64_t max_bytes, const Progress& progress,
                                    const fs::path& reader) {
-  isolation::ReaderJob job;
-  job.program = reader;
-  job.task = "gray";
-  job.input = path;
-  job.with_folder = names_another_file(path);
+  isolation::ReaderJob job = volume_job("gray", path, reader);
   job.options = {{"max_bytes", max_bytes}};
   return isolation::read_isolated(job, progress);
 }

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "ct/read/ct_file_names.hpp"
 #include "ct/read/volume_answer.hpp"
+#include "ct/read/volume_job.hpp"
 #include "isolation/reader_process.hpp"
 
 namespace ream::ct {
@@ -14,11 +14,7 @@ constexpr double reading_share = 0.95;
 
 HuVolume read(const char* task, const std::filesystem::path& path, const ReadOptions& options,
               const Progress& progress) {
-  isolation::ReaderJob job;
-  job.program = options.reader;
-  job.task = task;
-  job.input = path;
-  job.with_folder = names_another_file(path);
+  isolation::ReaderJob job = volume_job(task, path, options.reader);
   job.options = {{"series_uid", options.series_uid},
                  {"keep_names", options.keep_names},
                  {"max_bytes", options.max_bytes}};

@@ -1,7 +1,6 @@
 #include "ct/segment/shoulder_steps.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/error.hpp"
 #include "ct/hu_volume.hpp"

@@ -1,7 +1,6 @@
 #include "device/admittance/admittance_device.hpp"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <thread>
 

@@ -1,6 +1,5 @@
 #include "device/network/device_socket.hpp"
 
-#include <algorithm>
 #include <string>
 
 namespace ream::device {

@@ -2,7 +2,6 @@
 
 #include <samplerate.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 

@@ -23,6 +23,8 @@ RunRequest run_request(const SessionContext& context, const SessionRequest& requ
   const bool built_in = request.script == "demo" || request.script == "practice";
   run.script_name =
       built_in ? request.script : (context.data / "scripts" / (request.script + ".json")).string();
+  if (!built_in && !std::filesystem::exists(run.script_name))
+    throw Error(ErrorKind::not_found, "no script '" + request.script + "' in the server's folder scripts");
   run.backend = context.backend;
   run.tool_spacing_mm = context.tool_spacing_mm;
   run.force_scale = request.force_scale;

@@ -26,6 +26,11 @@ std::string reamer_in_library(const std::string& reamer, const fs::path& data) {
   return bare_name ? shell::reamer_named(reamer, data).words : reamer;
 }
 
+shell::Tool tool_asked_for(const std::string& reamer, const fs::path& data) {
+  const Reamer found = reamer_asked_for(reamer_in_library(reamer, data), std::nullopt);
+  return shell::make_tool(found.words, found.axis);
+}
+
 shell::Tool tool_of(const Reamer& reamer) {
   if (reamer.mesh_file.empty()) return shell::make_tool(reamer.words, reamer.axis);
   const TemporaryFolder folder(fs::temp_directory_path() / "ream-reamer");

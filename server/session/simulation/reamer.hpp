@@ -24,6 +24,10 @@ Reamer reamer_asked_for(const std::string& words, const std::optional<shell::Too
 /// as it is. Error usage lists the names that exist, for a single word that is nothing of all that.
 std::string reamer_in_library(const std::string& reamer, const std::filesystem::path& data);
 
+/// The tool of a name in the library, of words or of a mesh with an axis beside it. Errors: those of both
+/// above.
+shell::Tool tool_asked_for(const std::string& reamer, const std::filesystem::path& data);
+
 /// The tool once more: from the words, or from the bytes of the mesh file, which must not refer to other
 /// files. Errors: those of make_tool; io.
 shell::Tool tool_of(const Reamer& reamer);

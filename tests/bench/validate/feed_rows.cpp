@@ -3,6 +3,7 @@
 
 #include "bench/text_table.hpp"
 #include "bench/validate/parallel.hpp"
+#include "bench/validate/prediction_interval.hpp"
 #include "bench/validate/steady_reaming.hpp"
 #include "bench/validate/validate_parts.hpp"
 #include "statistics/regression.hpp"
@@ -118,7 +119,7 @@ void print_left_out(const PublishedBone& bone, const Feeds& feeds, std::ostream*
       feed.push_back(bone.specimens[other].feed_mm_s);
     }
     const Specimen& left_out = bone.specimens[s];
-    const statistics::Prediction predicted = statistics::prediction_95(density, feed, left_out.density_g_cc);
+    const Prediction predicted = prediction_95(density, feed, left_out.density_g_cc);
     table.lines.push_back({std::to_string(s + 1),
                            {left_out.density_g_cc, left_out.feed_mm_s, predicted.middle, predicted.low,
                             predicted.high, feeds.of_law[s][reference_thrust]}});

@@ -268,7 +268,7 @@ TYPED_TEST(BackupTest, OtherFilesAreRefusedByName) {
     this->expect_nothing_restored(other);
   };
   refuse(ErrorKind::not_found, "nowhere.zip", this->place.path() / "nowhere.zip");
-  refuse(ErrorKind::invalid_input, "text.zip is no whole zip archive",
+  refuse(ErrorKind::invalid_input, "text.zip is not a valid zip archive",
          this->place.write("text.zip", "hello"));
   const auto zip = [&](const std::string& manifest) {
     const fs::path file = this->place.write("backup.json", manifest), made = this->place.path() / "made.zip";

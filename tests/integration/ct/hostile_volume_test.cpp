@@ -109,6 +109,24 @@ TEST_F(HostileVolume, ALinkInAFolderLeadsNowhere) {
   EXPECT_THROW(GrayVolume(folder_.path() / "given/a.nhdr"), Error);
 }
 
+TEST_F(HostileVolume, AHeaderReadsThePlainFileBesideIt) {
+  const fs::path given = folder_.path() / "given";
+  for (const char* name : {"voxels.raw", ".hidden.raw"}) fs::copy_file(secret(), given / name);
+  const auto header = [&](const std::string& name, const std::string& text) {
+    std::ofstream(given / name) << text;
+    return given / name;
+  };
+  for (const fs::path& file : {header("a.nhdr", nrrd("data file: voxels.raw")),
+                               header("a.mhd", meta("ElementDataFile = voxels.raw"))}) {
+    EXPECT_EQ(read_ct(file).hu, std::vector<int16_t>(side * side * side, secret_value)) << file;
+    EXPECT_EQ(GrayVolume(file).dims(), Vec3i(side, side, side));
+  }
+  for (const fs::path& file : {header("b.nhdr", nrrd("data file: .hidden.raw")),
+                               header("b.mhd", meta("ElementDataFile = .hidden.raw"))})
+    test::expect_error(ErrorKind::invalid_input, "in one file beside it, not in '.hidden.raw'",
+                       [&] { read_ct(file); });
+}
+
 /// A megabyte of zeros, packed, of 64-bit voxels that unpack to gigabytes.
 TEST_F(HostileVolume, ASmallFileUnpacksToASmallVolume) {
   const fs::path file = folder_.path() / "given/bomb.nrrd";

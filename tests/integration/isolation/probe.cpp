@@ -59,6 +59,9 @@ json reach(const fs::path&, const json& options, const ream::Progress&) {
   told["write"] = outcome(::open(path.c_str(), O_WRONLY));
   told["create"] = outcome(::open((path + ".new").c_str(), O_WRONLY | O_CREAT, 0600));
   told["remove"] = outcome(::unlink(path.c_str()));
+  std::array<char, 4096> names{};
+  told["list"] =
+      outcome(::syscall(SYS_getdents64, ream::isolation::input_descriptor, names.data(), names.size()));
   told["link"] = outcome(::symlink(path.c_str(), "link"));
   return told;
 }

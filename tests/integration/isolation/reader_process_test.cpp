@@ -107,6 +107,34 @@ TEST_F(ReaderProcess, CannotReachAnyOtherFile) {
   EXPECT_NE(own["remove"], "done");
 }
 
+TEST_F(ReaderProcess, ReachesANeighbourThatItIsGivenAndNothingElseOfTheFolder) {
+  if (sandbox_support().landlock == 0) GTEST_SKIP() << "this kernel has no Landlock";
+  for (const char* name : {"voxels.raw", "key"}) write(std::string("in/") + name, "of the user");
+  fs::create_symlink(folder_.path() / "secret.txt", folder_.path() / "in/link.raw");
+  const auto told = [&](const std::string& neighbour, const std::string& path) {
+    ReaderJob reach = job("reach", {{"path", path}});
+    reach.neighbour = neighbour;
+    return read_isolated(reach).answer();
+  };
+  const std::string folder = (folder_.path() / "in").string();
+  for (const std::string& way : {std::string("input/folder/"), folder + "/", std::string("/proc/self/fd/3/")})
+    for (const char* name : {"given.txt", "voxels.raw"}) {
+      const json of_own = told("voxels.raw", way + name);
+      EXPECT_EQ(of_own["read"], "done") << way << name;
+      for (const char* change : {"write", "create", "remove", "list"})
+        EXPECT_NE(of_own[change], "done") << change << ' ' << way << name;
+    }
+  for (const char* path : {"key", "link.raw", ".", "../secret.txt"})
+    EXPECT_NE(told("voxels.raw", std::string("input/folder/") + path)["read"], "done") << path;
+  EXPECT_NE(told("link.raw", "input/folder/link.raw")["read"], "done");
+  EXPECT_NE(told("link.raw", (folder_.path() / "secret.txt").string())["read"], "done");
+  EXPECT_EQ(told("missing.raw", "input/folder/given.txt")["read"], "done");
+  fs::create_directory(folder_.path() / "in/sub");
+  write("in/sub/key", "of the user");
+  for (const char* path : {"sub", "sub/key"})
+    EXPECT_NE(told("sub", std::string("input/folder/") + path)["read"], "done") << path;
+}
+
 TEST_F(ReaderProcess, HasNoNetworkNoProgramsNoSignalsAndNoSecrets) {
   if (!sandbox_support().seccomp) GTEST_SKIP() << "this kernel has no seccomp";
   ::setenv("REAM_PROBE_SECRET", "a secret", 1);

@@ -51,6 +51,36 @@ class GoldenDatabasesTest : public test::TestDatabase<Store> {
 };
 TYPED_TEST_SUITE(GoldenDatabasesTest, test::BothStores, test::StoreNames);
 
+/// The way back to an older version: a SQLite file is kept as that version left it.
+TYPED_TEST(GoldenDatabasesTest, AreKeptBeforeTheyAreBroughtUpToDate) {
+  const bool sqlite = this->url().starts_with("sqlite:");
+  const auto users_in = [](Database& database) {
+    return database.read([](Sql& sql) {
+      int count = 0;
+      sql << "SELECT count(*) FROM users", into(count);
+      return count;
+    });
+  };
+  for (size_t i = 1; i + 1 < migrations().size(); ++i) {
+    this->become(golden_files()[i]);
+    const size_t missing = migrations().size() - i - 1;
+    ASSERT_EQ(missing_migrations(this->url()), missing);
+    const fs::path kept = keep_before_migration(this->url());
+    EXPECT_EQ(kept.empty(), !sqlite);
+    EXPECT_EQ(missing_migrations(this->url()), missing) << "keeping it has changed it";
+    if (!sqlite) continue;
+    const std::string next = std::to_string(1000 + migrations()[i + 1].number).substr(1);
+    EXPECT_TRUE(kept.string().ends_with(".before-" + next)) << kept;
+    EXPECT_EQ(missing_migrations("sqlite:" + kept.string()), missing);
+    EXPECT_EQ(keep_before_migration(this->url()), fs::path()) << "a copy that is there was replaced";
+    const auto upgraded = this->open_again();
+    EXPECT_EQ(missing_migrations(this->url()), 0u);
+    EXPECT_EQ(keep_before_migration(this->url()), fs::path());
+    Database back("sqlite:" + kept.string());
+    EXPECT_EQ(users_in(back), users_in(*upgraded));
+  }
+}
+
 TYPED_TEST(GoldenDatabasesTest, ThereIsOneForEachStep) {
   std::vector<int> steps, files;
   for (const Migration& step : migrations()) steps.push_back(step.number);

@@ -26,8 +26,8 @@ class Log : public testing::Test {
   }
 };
 
-TEST_F(Log, LinesOfTextHaveDateTimeAndLevel) {
-  const std::regex line(R"(\d{4}-\d\d-\d\d \d\d:\d\d:\d\d\.\d{3} warning the case is gone\n)");
+TEST_F(Log, LinesOfTextHaveDateTimeZoneAndLevel) {
+  const std::regex line(R"(\d{4}-\d\d-\d\d \d\d:\d\d:\d\d\.\d{3} [+-]\d\d:\d\d warning the case is gone\n)");
   EXPECT_TRUE(std::regex_match(written(log::Format::text, log::warn, "the case is gone"), line));
 }
 

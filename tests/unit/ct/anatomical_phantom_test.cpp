@@ -14,6 +14,7 @@
 #include "ct/phantom/phantom_case.hpp"
 #include "ct/phantom/phantom_shape.hpp"
 #include "ct/segment/shoulder_bones.hpp"
+#include "support/full_tests.hpp"
 #include "unit/ct/shoulder_phantom.hpp"
 
 namespace ream::ct {
@@ -290,10 +291,11 @@ TEST(AnatomicalPhantom, ANumberIsOnePersonAndNumbersAreDifferentPeople) {
   EXPECT_NE(seven.anatomical->coracoid_lateral_mm, eight.anatomical->coracoid_lateral_mm);
 }
 
-/// As a user's CT would be segmented, without a seed point. Three people; REAM_INDIVIDUALS sets how many.
+/// As a user's CT would be segmented, without a seed point. Three people, in full tests twenty;
+/// REAM_INDIVIDUALS sets how many.
 TEST(AnatomicalPhantom, PeoplesScapulaeAreSegmentedApartFromTheirHumerus) {
   const char* wanted = std::getenv("REAM_INDIVIDUALS");
-  const uint64_t count = wanted ? std::strtoull(wanted, nullptr, 10) : 3;
+  const uint64_t count = wanted ? std::strtoull(wanted, nullptr, 10) : test::full_tests() ? 20 : 3;
   ASSERT_GT(count, 0u);
   double least = 1.0;
   size_t most_wrong = 0;

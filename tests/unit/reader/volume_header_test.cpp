@@ -68,6 +68,13 @@ TEST_F(HeaderOfAVolume, ALinkIsNoFileOfVoxels) {
   });
 }
 
+TEST_F(HeaderOfAVolume, NamesTheFileOfItsVoxels) {
+  EXPECT_EQ(voxel_file_named_in(written("a.mhd", meta_fields + "ElementDataFile = a b.raw\n")), "a b.raw");
+  EXPECT_EQ(voxel_file_named_in(written("a.mha", meta_fields + "ElementDataFile = Local\n")), "");
+  EXPECT_EQ(voxel_file_named_in(written("a.nhdr", nrrd_fields + "Data File: a.raw\n\n")), "a.raw");
+  EXPECT_EQ(voxel_file_named_in(written("a.nrrd", nrrd_fields + "\n")), "");
+}
+
 TEST_F(HeaderOfAVolume, NamesAreInAnyCase) {
   EXPECT_NO_THROW(VolumeHeader(written("A.MHA", meta_fields + "ElementDataFile = LOCAL\n")));
   refuse("no NIfTI", "A.NII", std::string(400, 'x'));

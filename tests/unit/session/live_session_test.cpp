@@ -81,6 +81,19 @@ class LiveSessionTest : public testing::Test {
   SessionService service{engine, {4, 4}, sessions_folder(reaming.data()), database};
 };
 
+TEST_F(LiveSessionTest, AScriptThatIsNotThereIsNamedWithoutTheServersFolders) {
+  SessionRequest request = wanted();
+  request.script = "missing";
+  try {
+    service.create(request);
+    FAIL() << "there is no such script";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::not_found);
+    EXPECT_NE(std::string(error.what()).find("no script 'missing'"), std::string::npos) << error.what();
+    EXPECT_EQ(std::string(error.what()).find(reaming.data().string()), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(LiveSessionTest, NoAcceptedRemarkIsLostAtTheEnd) {
   for (int round = 0; round < 3; ++round) {
     const std::string id = service.create(wanted()).request.id;

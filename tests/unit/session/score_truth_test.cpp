@@ -9,6 +9,7 @@
 #include "session/live/headless_run.hpp"
 #include "sim/step.hpp"
 #include "support/component_truth.hpp"
+#include "support/full_tests.hpp"
 #include "support/reaming_setup.hpp"
 #include "support/way_out.hpp"
 
@@ -139,10 +140,11 @@ TEST_P(ScoreTruth, IsWhatIsSaid) {
   }
 }
 
-/// How many reamings, of the seeds from 0: ten, unless REAM_REAMINGS says otherwise.
+/// How many reamings, of the seeds from 0: ten, in full tests a hundred, unless REAM_REAMINGS says otherwise.
 unsigned reamings() {
   const char* wanted = std::getenv("REAM_REAMINGS");
-  return wanted ? static_cast<unsigned>(std::max(1, std::atoi(wanted))) : 10u;
+  if (wanted == nullptr) return full_tests() ? 100 : 10;
+  return static_cast<unsigned>(std::max(1, std::atoi(wanted)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, ScoreTruth, testing::Range(0u, reamings()));

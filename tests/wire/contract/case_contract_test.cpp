@@ -131,6 +131,9 @@ class CaseContractTest : public ContractTest {
     expect_get(one_case + slices, made + "/volume/slices/w/3?of=colours", 422);
     expect_get(one_case + "/mesh", made + "/mesh", 409);
     expect_post(one_case + "/plan/proposal", made + "/plan/proposal", 409, "{}");
+    expect_post(
+        one_case + "/plan/assessment", made + "/plan/assessment", 409,
+        R"({"entry_mm": [0,0,0], "axis_direction": [1,0,0], "depth_mm": 2, "reamer": "sphere 34,9"})");
     expect_get(one_case + "/surroundings", made + "/surroundings", 404);
     expect_get(one_case + "/surroundings", cases + "/planned/surroundings", 404);
     expect_get(one_case + "/mesh", cases + "/nowhere/mesh", 404);
@@ -187,6 +190,12 @@ class CaseContractTest : public ContractTest {
     json wanted = json::parse(proposed.body).at("plan");
     std::erase_if(wanted.get_ref<json::object_t&>(),
                   [](const auto& entry) { return entry.second.is_null(); });
+    refused_bodies("POST", plan + "/assessment", made + "/plan/assessment", wanted.dump(), "{}");
+    expect_post(plan + "/assessment", cases + "/nowhere/plan/assessment", 404, wanted.dump());
+    const HttpReply assessed = post(made + "/plan/assessment", wanted.dump());
+    expect_as_described("POST", plan + "/assessment", 200, assessed);
+    EXPECT_GT(json::parse(assessed.body).at("outcome").at("footprint_area_mm2").get<double>(), 0.0)
+        << assessed.body;
     refused_bodies("PUT", plan, made + "/plan", wanted.dump(), "{}");
     expect_get(plan, made + "/plan", 404);
     expect_request("PUT", plan, cases + "/nowhere/plan", 404, wanted.dump());

@@ -164,6 +164,7 @@ TEST_F(ServerTest, PageIsServedAndUnknownApiPathsAreProblems) {
   const HttpReply unknown = get("/api/v1/unknown");
   EXPECT_EQ(unknown.status, 404);
   EXPECT_EQ(unknown.headers.at("content-type"), "application/problem+json");
+  EXPECT_NE(unknown.body.find("no such endpoint: /api/v1/unknown"), std::string::npos) << unknown.body;
   EXPECT_EQ(http_request(server->port(), "DELETE", sessions).status, 405);
 }
 

@@ -116,7 +116,14 @@ TEST(Outage, NothingIsLostAndTheSessionNeverNotices) {
     const uint64_t when_it_stopped = recorded_bytes(server, id);
     LiveServer::until("visitors to be refused", [&] { return first.refusals > 20 && second.refusals > 20; });
     LiveServer::until("the session to go on", [&] { return recorded_bytes(server, id) > when_it_stopped; });
+    LiveServer::until("the server to say that its database is away", [&] {
+      const HttpReply reply = http_request(server.port(), "GET", "/readyz");
+      return reply.status == 503 && reply.body.find("the database does not answer") != std::string::npos;
+    });
+    EXPECT_EQ(http_request(server.port(), "GET", "/healthz").status, 200);
     postgres.start();
+    LiveServer::until("the server to be ready again",
+                      [&] { return http_request(server.port(), "GET", "/readyz").status == 200; });
     const int before[] = {first.good_rounds, second.good_rounds};
     LiveServer::until("visitors to be served again", [&] {
       return first.good_rounds > before[0] + 2 && second.good_rounds > before[1] + 2;
