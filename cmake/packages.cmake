@@ -9,6 +9,7 @@ install(DIRECTORY ${made}/man/ DESTINATION share/man/man1 COMPONENT ream OPTIONA
 install(FILES ${made}/completion RENAME ream DESTINATION share/bash-completion/completions COMPONENT ream OPTIONAL)
 install(FILES ${CMAKE_SOURCE_DIR}/packaging/copyright ${made}/changelog.gz ${made}/CHANGELOG.md.gz
         DESTINATION share/doc/ream COMPONENT ream OPTIONAL)
+install(DIRECTORY ${made}/sbom/ DESTINATION share/doc/ream COMPONENT ream OPTIONAL)
 install(FILES ${CMAKE_SOURCE_DIR}/packaging/ream.sysusers RENAME ream.conf DESTINATION lib/sysusers.d COMPONENT ream)
 install(FILES ${CMAKE_SOURCE_DIR}/packaging/ream.service DESTINATION /lib/systemd/system COMPONENT ream)
 install(FILES ${CMAKE_SOURCE_DIR}/packaging/ream.toml DESTINATION /etc/ream COMPONENT ream

@@ -3,6 +3,7 @@
 A suite is known by its <suite>.exit file (the exit code of its program). Suites that leave a results file are
 counted test by test; the others (formatting, lint) count as one test each. When a suite failed and no test says why,
 what it said last (<suite>.log) is printed once more before the totals, as a long log is often cut at its beginning.
+Below each test that failed stand the first lines of what it found.
 Exit 1 when anything failed, when a suite ran no test, or when a program failed although its tests say they passed.
 """
 
@@ -14,36 +15,80 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 
+LONGEST_LINE = 500
+LINES_OF_A_FAILURE = 12
+COLOURS = re.compile(r"\x1b\[[0-9;]*m")
+
+
 @dataclass
 class Counts:
     passed: int = 0
+    # Names of tests, each with the first lines of why.
     failed: list[str] = field(default_factory=list)
     # It failed and no test says why: what it said last does.
     unexplained: bool = False
     skipped: list[str] = field(default_factory=list)
 
 
+def with_reasons(name: str, reasons: list[str]) -> str:
+    """The name of a test that failed, and below it what it found: the same number of lines for each reason."""
+    lines = [name]
+    for reason in reasons:
+        said = [line.rstrip() for line in COLOURS.sub("", reason).splitlines() if line.strip()]
+        lines += ["    " + line[:LONGEST_LINE] for line in said[: max(2, LINES_OF_A_FAILURE // len(reasons))]]
+    return "\n".join(lines)
+
+
 def read_ctest(path: Path) -> Counts:
+    """CTest says which programs ended well; what their tests found is in gtest/ beside its file."""
     counts = Counts()
+    found = path.parent / "gtest"
+    for results in sorted(found.glob("*.xml")):
+        read_gtest(results, counts)
+    explained = {name.splitlines()[0] for name in counts.failed}
     for case in ElementTree.parse(path).getroot().iter("testcase"):
-        name = case.get("name", "?")
-        output = case.findtext("system-out") or ""
+        program, output = case.get("name", "?"), case.findtext("system-out") or ""
         if case.get("status") == "run":
-            counts.passed += 1
-        elif case.get("status") == "disabled" or is_gtest_skip(case, output):
-            counts.skipped.append(f"{name}: {gtest_skip_reason(output)}")
-        else:
-            counts.failed.append(name)
+            if NO_TESTS in output:
+                counts.failed.append(f"{program}: it ran no test")
+            elif not (found / f"{program}.xml").is_file():
+                counts.failed.append(f"{program}: left no results")
+            continue
+        named = FAILED_TESTS.findall(output)
+        if not named or not explained.issuperset(named):
+            # It did not live to write down what its tests found.
+            counts.failed.append(with_reasons(program, gtest_failures(output) or ["\n".join(output.splitlines()[-LINES_OF_A_FAILURE:])]))
     return counts
 
 
-def is_gtest_skip(case: ElementTree.Element, output: str) -> bool:
-    return case.find("skipped") is not None and "[  SKIPPED ]" in output
+NO_TESTS = "[==========] 0 tests from 0 test suites ran."
+FAILED_TESTS = re.compile(r"^\[  FAILED  \] ([\w/]+\.[\w/]+)", re.M)
 
 
-def gtest_skip_reason(output: str) -> str:
-    reason = re.search(r": Skipped\n(.+)", output)
-    return reason.group(1).strip() if reason else "disabled"
+def read_gtest(path: Path, counts: Counts) -> None:
+    try:
+        # What a test says of bytes that are no text is written down as it is.
+        root = ElementTree.fromstring(path.read_bytes().decode("utf-8", "replace"))
+    except ElementTree.ParseError as error:
+        counts.failed.append(f"{path.stem}: left results that cannot be read ({error})")
+        return
+    for case in root.iter("testcase"):
+        name = f"{case.get('classname')}.{case.get('name')}"
+        failures = [failure.get("message") or failure.text or "" for failure in case.iter("failure")]
+        skipped = case.find("skipped")
+        if failures:
+            counts.failed.append(with_reasons(name, failures))
+        elif skipped is not None:
+            reason = (skipped.get("message") or "").strip().splitlines()
+            counts.skipped.append(f"{name}: {reason[-1] if reason else 'no reason given'}")
+        elif case.get("status") == "notrun":
+            counts.skipped.append(f"{name}: disabled")
+        else:
+            counts.passed += 1
+
+
+def gtest_failures(output: str) -> list[str]:
+    return [said.split("\n\n")[0] for said in re.findall(r"^(\S+:\d+: Failure\n.*?)(?=^\[|^\S+:\d+: Failure|\Z)", output, re.M | re.S)]
 
 
 def read_vitest(path: Path) -> Counts:
@@ -56,7 +101,7 @@ def read_vitest(path: Path) -> Counts:
             if case["status"] == "passed":
                 counts.passed += 1
             elif case["status"] == "failed":
-                counts.failed.append(case["fullName"])
+                counts.failed.append(with_reasons(case["fullName"], case.get("failureMessages", [])))
             else:
                 counts.skipped.append(f"{case['fullName']}: {case['status']}")
     return counts
@@ -84,7 +129,9 @@ def add_browser_test(counts: Counts, title: str, test: dict) -> None:
         reasons = [note.get("description", "") for note in test.get("annotations", [])]
         counts.skipped.append(f"{title}: {'; '.join(filter(None, reasons)) or 'no reason given'}")
     else:
-        counts.failed.append(title + (" (passed only when run again)" if test["status"] == "flaky" else ""))
+        errors = [error.get("message", "") for result in test["results"] for error in result.get("errors", [])]
+        again = " (passed only when run again)" if test["status"] == "flaky" else ""
+        counts.failed.append(with_reasons(title + again, errors))
 
 
 READERS = {
@@ -112,7 +159,6 @@ def read_suite(folder: Path, suite: str) -> Counts:
 
 
 LAST_LINES = 100
-LONGEST_LINE = 500
 
 
 def print_last_words(folder: Path, suite: str) -> None:

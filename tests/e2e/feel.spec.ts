@@ -165,27 +165,29 @@ test('a participant feels plates and answers, trial after trial; the operator re
   expect(answers).not.toMatch(/Tom|tom/);
 });
 
-test('an instructor runs the trials of somebody without an account, and sees the report when the study is closed', async ({
-  browser,
-}) => {
-  const page = await windowOf(browser, ines);
-  await makeStudy(page);
-  const code = await enrol(page, 'expert');
-  await page.getByTestId('train-as').selectOption(code);
-  await expect(page.getByTestId('feel-trial')).toHaveText('Trial 1 of 2');
-  await feelPlates(page);
-  await page.getByTestId('answer-now').click();
-  await expect(page.getByTestId('train-as')).toHaveValue(code);
-  await page.getByTestId('answer-lower').click();
-  await expect(page.getByTestId('feel-trial')).toHaveText('Trial 2 of 2');
-  await expect(page.getByTestId('show-feel-report')).toBeDisabled();
-  await page.getByTestId('close-study').click();
-  await page.getByTestId('confirm-close-study').click();
-  await expect(page.getByTestId('study-state')).toHaveText('Closed');
-  await expect(page.getByTestId('feel-panel')).toHaveCount(0);
-  await page.getByTestId('show-feel-report').click();
-  await expect(page.getByTestId('feel-line-density')).toBeVisible();
-});
+test(
+  'an instructor runs the trials of somebody without an account, and sees the report when the study is closed',
+  { tag: '@full' },
+  async ({ browser }) => {
+    const page = await windowOf(browser, ines);
+    await makeStudy(page);
+    const code = await enrol(page, 'expert');
+    await page.getByTestId('train-as').selectOption(code);
+    await expect(page.getByTestId('feel-trial')).toHaveText('Trial 1 of 2');
+    await feelPlates(page);
+    await page.getByTestId('answer-now').click();
+    await expect(page.getByTestId('train-as')).toHaveValue(code);
+    await page.getByTestId('answer-lower').click();
+    await expect(page.getByTestId('feel-trial')).toHaveText('Trial 2 of 2');
+    await expect(page.getByTestId('show-feel-report')).toBeDisabled();
+    await page.getByTestId('close-study').click();
+    await page.getByTestId('confirm-close-study').click();
+    await expect(page.getByTestId('study-state')).toHaveText('Closed');
+    await expect(page.getByTestId('feel-panel')).toHaveCount(0);
+    await page.getByTestId('show-feel-report').click();
+    await expect(page.getByTestId('feel-line-density')).toBeVisible();
+  },
+);
 
 test('who plans a study is told how many participants it needs', async ({ browser }) => {
   const page = await windowOf(browser, ines);

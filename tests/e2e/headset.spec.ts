@@ -10,6 +10,8 @@ import { serverForEachTest, untilLive } from './server_for_each_test';
 
 const here = serverForEachTest();
 test.use({ actionTimeout: 60_000, viewport: { width: 1000, height: 560 } });
+// Both eyes are drawn at every frame, in software.
+test.setTimeout(420_000);
 test.describe.configure({ timeout: 300_000 });
 
 type Emulated = Window & { worn?: XRDevice; IWER: typeof import('iwer') };
@@ -81,7 +83,7 @@ test('the live bone is seen in a headset, grabbed and made larger, and the page 
   await untilLive(page);
 });
 
-test('a recorded session is seen in a headset', async ({ page }, info) => {
+test('a recorded session is seen in a headset', { tag: '@full' }, async ({ page }, info) => {
   await withHeadset(page);
   await page.goto(here.server.url);
   await untilLive(page);

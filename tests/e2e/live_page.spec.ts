@@ -89,7 +89,7 @@ test('says that the link is lost, and recovers by itself when the server is back
   await expect(page.getByTestId('session-state')).toHaveAttribute('data-state', 'running');
 });
 
-test('a second viewer joins a running session and sees the same', async ({ page, context }) => {
+test('a second viewer joins a running session and sees the same', { tag: '@full' }, async ({ page, context }) => {
   await openReady(page);
   await page.getByTestId('run-demo').click();
   await page.waitForFunction(() => (window.__ream.lastTick ?? 0) > 500);

@@ -103,24 +103,28 @@ test('cuts the bone along the reamer and along the planes of the body, and remem
   await expect(page.getByTestId('see-through')).toHaveAttribute('aria-pressed', 'false');
 });
 
-test('glides to the surgeon’s view and gives the view back to the hand that turns it', async ({ page }, info) => {
-  await open(page);
-  await untilStill(page);
-  const own = await bone(page);
-  await page.keyboard.press('v');
-  await expect(page.getByTestId('trainee-camera')).toHaveAttribute('aria-pressed', 'true');
-  await expect.poll(() => changed(page, own)).toBeGreaterThan(3000);
-  await untilStill(page);
-  await page.screenshot({ path: info.outputPath('surgeon.png') });
-  const surgeon = await bone(page);
-  await canvas(page).focus();
-  await page.keyboard.press('ArrowLeft');
-  await expect(page.getByTestId('trainee-camera')).toHaveAttribute('aria-pressed', 'false');
-  await untilStill(page);
-  await expect.poll(() => changed(page, surgeon)).toBeGreaterThan(1000);
-  await page.getByTestId('view-plan').click();
-  await expect.poll(() => changed(page, own)).toBeLessThan(200);
-});
+test(
+  'glides to the surgeon’s view and gives the view back to the hand that turns it',
+  { tag: '@full' },
+  async ({ page }, info) => {
+    await open(page);
+    await untilStill(page);
+    const own = await bone(page);
+    await page.keyboard.press('v');
+    await expect(page.getByTestId('trainee-camera')).toHaveAttribute('aria-pressed', 'true');
+    await expect.poll(() => changed(page, own)).toBeGreaterThan(3000);
+    await untilStill(page);
+    await page.screenshot({ path: info.outputPath('surgeon.png') });
+    const surgeon = await bone(page);
+    await canvas(page).focus();
+    await page.keyboard.press('ArrowLeft');
+    await expect(page.getByTestId('trainee-camera')).toHaveAttribute('aria-pressed', 'false');
+    await untilStill(page);
+    await expect.poll(() => changed(page, surgeon)).toBeGreaterThan(1000);
+    await page.getByTestId('view-plan').click();
+    await expect.poll(() => changed(page, own)).toBeLessThan(200);
+  },
+);
 
 test('says in one word whether the simulation keeps up, and sounds only when asked', async ({ page }, info) => {
   await open(page);
@@ -239,70 +243,76 @@ test('in theatre there is nothing but the bone, an opaque reamer, sound and forc
     .toBeLessThan(0.5);
 });
 
-test('shows the CT beside the picture, with the outline of the reamer, once it is asked for', async ({
-  page,
-}, info) => {
-  const loaded: string[] = [];
-  page.on('request', (request) => loaded.push(request.url()));
-  await open(page);
-  expect(loaded.filter((url) => /live_slices|volume\/slices/.test(url))).toEqual([]);
-  await page.getByTestId('practise').click();
-  await page.waitForFunction(() => window.__ream.deviceLink === 'holding', null, { timeout: 60_000 });
-  await page.getByTestId('slices').click();
-  for (const name of ['axial', 'coronal', 'sagittal']) {
-    const slice = page.getByTestId(`live-slice-${name}`);
-    await expect(slice).toBeVisible();
-    /** Of pixels that are not black, and of those in the colours of plan and reamer. */
-    const seen = () =>
-      slice.evaluate((element: HTMLCanvasElement) => {
-        const { width, height } = element;
-        const { data } = element.getContext('2d')?.getImageData(0, 0, width, height) ?? { data: [] };
-        const counts = { grey: 0, reamer: 0, plan: 0 };
-        for (let i = 0; i < data.length; i += 4) {
-          const [r = 0, g = 0, b = 0] = data.slice(i, i + 3);
-          if (r > 60 && r === g && g === b) ++counts.grey;
-          if (r > 200 && g > 160 && b < 140) ++counts.reamer;
-          if (r < 90 && g > 170 && b > 120) ++counts.plan;
-        }
-        return counts;
-      });
-    await expect.poll(async () => (await seen()).grey).toBeGreaterThan(500);
-    await expect.poll(async () => (await seen()).plan).toBeGreaterThan(5);
-    if (name !== 'sagittal') await expect.poll(async () => (await seen()).reamer).toBeGreaterThan(20);
-  }
-  await page.screenshot({ path: info.outputPath('slices.png') });
-  await page.keyboard.press('t');
-  await expect(page.getByTestId('live-slices')).toHaveCount(0);
-});
+test(
+  'shows the CT beside the picture, with the outline of the reamer, once it is asked for',
+  { tag: '@full' },
+  async ({ page }, info) => {
+    const loaded: string[] = [];
+    page.on('request', (request) => loaded.push(request.url()));
+    await open(page);
+    expect(loaded.filter((url) => /live_slices|volume\/slices/.test(url))).toEqual([]);
+    await page.getByTestId('practise').click();
+    await page.waitForFunction(() => window.__ream.deviceLink === 'holding', null, { timeout: 60_000 });
+    await page.getByTestId('slices').click();
+    for (const name of ['axial', 'coronal', 'sagittal']) {
+      const slice = page.getByTestId(`live-slice-${name}`);
+      await expect(slice).toBeVisible();
+      /** Of pixels that are not black, and of those in the colours of plan and reamer. */
+      const seen = () =>
+        slice.evaluate((element: HTMLCanvasElement) => {
+          const { width, height } = element;
+          const { data } = element.getContext('2d')?.getImageData(0, 0, width, height) ?? { data: [] };
+          const counts = { grey: 0, reamer: 0, plan: 0 };
+          for (let i = 0; i < data.length; i += 4) {
+            const [r = 0, g = 0, b = 0] = data.slice(i, i + 3);
+            if (r > 60 && r === g && g === b) ++counts.grey;
+            if (r > 200 && g > 160 && b < 140) ++counts.reamer;
+            if (r < 90 && g > 170 && b > 120) ++counts.plan;
+          }
+          return counts;
+        });
+      await expect.poll(async () => (await seen()).grey).toBeGreaterThan(500);
+      await expect.poll(async () => (await seen()).plan).toBeGreaterThan(5);
+      if (name !== 'sagittal') await expect.poll(async () => (await seen()).reamer).toBeGreaterThan(20);
+    }
+    await page.screenshot({ path: info.outputPath('slices.png') });
+    await page.keyboard.press('t');
+    await expect(page.getByTestId('live-slices')).toHaveCount(0);
+  },
+);
 
-test('nothing stands over the place that is aimed at, and the depth is beside it', async ({ page }, info) => {
-  await open(page);
-  await page.getByTestId('practise').click();
-  await page.waitForFunction(() => window.__ream.deviceLink === 'holding', null, { timeout: 60_000 });
-  /** The planned entry is in the middle of the picture. */
-  const atEntry = () =>
-    canvas(page).evaluate((element) => {
-      const box = element.getBoundingClientRect();
-      const top = document.elementFromPoint(box.x + box.width / 2, box.y + box.height / 2);
-      return top === element ? 'the picture' : (top?.className ?? 'nothing');
-    });
-  for (const [width, height] of [
-    [1280, 720],
-    [1024, 768],
-    [1920, 1080],
-    [390, 844],
-  ] as const) {
-    await page.setViewportSize({ width, height });
-    await canvas(page).scrollIntoViewIfNeeded();
-    await page.screenshot({ path: info.outputPath(`live-${width}.png`) });
-    await expect(page.getByTestId('depth')).toBeInViewport();
-    if (width < 1000) continue;
-    expect(await atEntry(), `${width}`).toBe('the picture');
-    await page.getByTestId('sections').click();
-    await expect(page.getByTestId('section-axial')).toBeVisible();
-    await drawn(page);
-    await page.screenshot({ path: info.outputPath(`sections-${width}.png`) });
-    expect(await atEntry(), `${width} with sections`).toBe('the picture');
-    await page.getByTestId('sections').click();
-  }
-});
+test(
+  'nothing stands over the place that is aimed at, and the depth is beside it',
+  { tag: '@full' },
+  async ({ page }, info) => {
+    await open(page);
+    await page.getByTestId('practise').click();
+    await page.waitForFunction(() => window.__ream.deviceLink === 'holding', null, { timeout: 60_000 });
+    /** The planned entry is in the middle of the picture. */
+    const atEntry = () =>
+      canvas(page).evaluate((element) => {
+        const box = element.getBoundingClientRect();
+        const top = document.elementFromPoint(box.x + box.width / 2, box.y + box.height / 2);
+        return top === element ? 'the picture' : (top?.className ?? 'nothing');
+      });
+    for (const [width, height] of [
+      [1280, 720],
+      [1024, 768],
+      [1920, 1080],
+      [390, 844],
+    ] as const) {
+      await page.setViewportSize({ width, height });
+      await canvas(page).scrollIntoViewIfNeeded();
+      await page.screenshot({ path: info.outputPath(`live-${width}.png`) });
+      await expect(page.getByTestId('depth')).toBeInViewport();
+      if (width < 1000) continue;
+      expect(await atEntry(), `${width}`).toBe('the picture');
+      await page.getByTestId('sections').click();
+      await expect(page.getByTestId('section-axial')).toBeVisible();
+      await drawn(page);
+      await page.screenshot({ path: info.outputPath(`sections-${width}.png`) });
+      expect(await atEntry(), `${width} with sections`).toBe('the picture');
+      await page.getByTestId('sections').click();
+    }
+  },
+);

@@ -130,17 +130,21 @@ test('a viewer link shows the session live and changes nothing, and its secret l
   await context.close();
 });
 
-test('a login that is revoked while somebody reams ends what they see and hold, in words', async ({ page }) => {
-  await enter(page, tom);
-  await page.getByTestId('practise').click();
-  await page.waitForFunction(() => window.__ream.deviceLink === 'holding', null, { timeout: 60_000 });
-  here.server.command('user', 'disable', 'tom');
-  await expect(page.getByTestId('login-problem')).toContainText('Your login has ended');
-  await expect(page.getByTestId('picture')).toBeHidden();
-  const after = await readout(page);
-  expect(after.live).toBe(false);
-  expect(after.deviceLink).toBeNull();
-});
+test(
+  'a login that is revoked while somebody reams ends what they see and hold, in words',
+  { tag: '@full' },
+  async ({ page }) => {
+    await enter(page, tom);
+    await page.getByTestId('practise').click();
+    await page.waitForFunction(() => window.__ream.deviceLink === 'holding', null, { timeout: 60_000 });
+    here.server.command('user', 'disable', 'tom');
+    await expect(page.getByTestId('login-problem')).toContainText('Your login has ended');
+    await expect(page.getByTestId('picture')).toBeHidden();
+    const after = await readout(page);
+    expect(after.live).toBe(false);
+    expect(after.deviceLink).toBeNull();
+  },
+);
 
 test('an operator adds, disables and removes users; the table says who is what', async ({ page, browser }) => {
   await enter(page, olga);

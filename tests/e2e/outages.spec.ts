@@ -68,7 +68,7 @@ test('a picture that the browser takes away is said to be lost, and drawn anew w
   await expect.poll(async () => (await compare(page, await picture(canvas), before)).changed).toBeLessThan(200);
 });
 
-test('who steers lets go when the picture is lost', async ({ page }) => {
+test('who steers lets go when the picture is lost', { tag: '@full' }, async ({ page }) => {
   await page.goto(here.server.url);
   await logIn(page, 'olga');
   await page.getByTestId('to-live').click();
@@ -86,21 +86,22 @@ test('who steers lets go when the picture is lost', async ({ page }) => {
   await page.keyboard.up(' ');
 });
 
-test('a session that rests is not live when the network is cut, and is again when it is back', async ({
-  page,
-  context,
-}) => {
-  await watchResting(page, 'pause');
-  await context.setOffline(true);
-  await expect(page.getByTestId('link-notice')).toContainText('It is not live');
-  await expect(page.getByTestId('picture')).toHaveAttribute('data-stale', 'true');
-  await page.getByTestId('to-dashboard').click();
-  await expect(page.getByTestId('no-updates')).toContainText('does not respond');
-  await context.setOffline(false);
-  await expect(page.getByTestId('no-updates')).toBeHidden();
-  await page.getByTestId('to-live').click();
-  await untilLive(page);
-});
+test(
+  'a session that rests is not live when the network is cut, and is again when it is back',
+  { tag: '@full' },
+  async ({ page, context }) => {
+    await watchResting(page, 'pause');
+    await context.setOffline(true);
+    await expect(page.getByTestId('link-notice')).toContainText('It is not live');
+    await expect(page.getByTestId('picture')).toHaveAttribute('data-stale', 'true');
+    await page.getByTestId('to-dashboard').click();
+    await expect(page.getByTestId('no-updates')).toContainText('does not respond');
+    await context.setOffline(false);
+    await expect(page.getByTestId('no-updates')).toBeHidden();
+    await page.getByTestId('to-live').click();
+    await untilLive(page);
+  },
+);
 
 test('a session that is deleted is said to be so, and a login that has ended asks for another', async ({ page }) => {
   const id = await watchResting(page, 'stop');

@@ -84,7 +84,7 @@ test('the mouse alone reams the demo, and stops reaming when it lets go', async 
   await expect(page.getByTestId('practise')).toBeEnabled();
 });
 
-test('the keys alone ream, pause and stop', async ({ page }) => {
+test('the keys alone ream, pause and stop', { tag: '@full' }, async ({ page }) => {
   await open(page);
   for (let i = 0; i < 30; ++i) {
     await page.keyboard.press('Tab');
@@ -116,7 +116,7 @@ test('the keys alone ream, pause and stop', async ({ page }) => {
   await expect(state(page)).toHaveAttribute('data-state', 'running');
 });
 
-test('a page that is left lets go of the reamer', async ({ page }) => {
+test('a page that is left lets go of the reamer', { tag: '@full' }, async ({ page }) => {
   await open(page);
   await practise(page);
   for (const leave of ['blur', 'hide', 'slip'] as const) {

@@ -97,7 +97,7 @@ test('a recorded session is opened from the list, moved about in, and says that 
   await expect(page.getByTestId('link-state')).toHaveText(/^(Stopped|Finished)$/);
 });
 
-test('two viewers of one replay see the same, found by its address', async ({ page, context }) => {
+test('two viewers of one replay see the same, found by its address', { tag: '@full' }, async ({ page, context }) => {
   const sessionId = await recordDemo(page, 6000);
   await openReplay(page, sessionId);
   const second = await context.newPage();

@@ -67,28 +67,32 @@ test('a session that was reamed ends with its points, advice and the ways on', a
   expect((await download).suggestedFilename()).toMatch(/\.pdf$/);
 });
 
-test('without contact it says so; trying again is the same case at the same level', async ({ page }, info) => {
-  await page.goto(here.server.url);
-  await untilLive(page);
-  await page.getByTestId('practice-level').selectOption('exam');
-  await page.getByTestId('practise').click();
-  await page.waitForFunction(() => window.__ream.deviceLink === 'holding', null, { timeout: 60_000 });
-  const first = (await readout(page)).sessionId;
-  await page.getByTestId('end-theatre').click();
-  await expect(page.getByTestId('result-untouched')).toHaveText('No bone was removed.');
-  await page.screenshot({ path: info.outputPath('untouched.png') });
-  await page.getByTestId('practice-level').selectOption('guided');
-  const made = page.waitForRequest((request) => request.method() === 'POST' && request.url().endsWith('/sessions'));
-  await page.getByTestId('try-again').click();
-  expect((await made).postDataJSON()).toMatchObject({ case: 'demo', theatre: true });
-  await page.waitForFunction(
-    (before) => window.__ream.sessionId !== before && window.__ream.deviceLink === 'holding',
-    first,
-    { timeout: 60_000 },
-  );
-  await expect(page.getByTestId('trainee-page')).toHaveAttribute('data-theatre', 'true');
-  await expect(card(page)).toHaveCount(0);
-});
+test(
+  'without contact it says so; trying again is the same case at the same level',
+  { tag: '@full' },
+  async ({ page }, info) => {
+    await page.goto(here.server.url);
+    await untilLive(page);
+    await page.getByTestId('practice-level').selectOption('exam');
+    await page.getByTestId('practise').click();
+    await page.waitForFunction(() => window.__ream.deviceLink === 'holding', null, { timeout: 60_000 });
+    const first = (await readout(page)).sessionId;
+    await page.getByTestId('end-theatre').click();
+    await expect(page.getByTestId('result-untouched')).toHaveText('No bone was removed.');
+    await page.screenshot({ path: info.outputPath('untouched.png') });
+    await page.getByTestId('practice-level').selectOption('guided');
+    const made = page.waitForRequest((request) => request.method() === 'POST' && request.url().endsWith('/sessions'));
+    await page.getByTestId('try-again').click();
+    expect((await made).postDataJSON()).toMatchObject({ case: 'demo', theatre: true });
+    await page.waitForFunction(
+      (before) => window.__ream.sessionId !== before && window.__ream.deviceLink === 'holding',
+      first,
+      { timeout: 60_000 },
+    );
+    await expect(page.getByTestId('trainee-page')).toHaveAttribute('data-theatre', 'true');
+    await expect(card(page)).toHaveCount(0);
+  },
+);
 
 test('a session that ended before the page was opened is not judged unasked', async ({ page }) => {
   await page.goto(here.server.url);

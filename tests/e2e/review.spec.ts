@@ -180,105 +180,110 @@ test('a session is gone through, mapped, measured, judged and taken home', async
   await page.screenshot({ path: info.outputPath('sections.png') });
 });
 
-test('two sessions are seen side by side with one camera, each at its own moment', async ({ page }, info) => {
-  test.setTimeout(540_000);
-  const [long = '', short = ''] = await recorded(page, 12_000, 5000);
-  await review(page, long);
-  await page.getByTestId('show-reamer').uncheck();
-  await page.getByTestId('compare-with').selectOption(short);
-  await expect(page).toHaveURL(new RegExp(`#/review/${long}/${short}$`));
-  await expect(pane(page, 1)).toHaveAttribute('data-position', '0', { timeout: 60_000 });
-  await expect(page.getByTestId('theatre-chip')).toHaveCount(1);
-  const [first, second] = [pane(page, 0), pane(page, 1)];
-  const differ = async () => (await compare(page, await bone(first), await bone(second))).changed;
-  await drawn(page);
-  await expect.poll(differ, patiently).toBeLessThan(60);
+test(
+  'two sessions are seen side by side with one camera, each at its own moment',
+  { tag: '@full' },
+  async ({ page }, info) => {
+    test.setTimeout(540_000);
+    const [long = '', short = ''] = await recorded(page, 12_000, 5000);
+    await review(page, long);
+    await page.getByTestId('show-reamer').uncheck();
+    await page.getByTestId('compare-with').selectOption(short);
+    await expect(page).toHaveURL(new RegExp(`#/review/${long}/${short}$`));
+    await expect(pane(page, 1)).toHaveAttribute('data-position', '0', { timeout: 60_000 });
+    await expect(page.getByTestId('theatre-chip')).toHaveCount(1);
+    const [first, second] = [pane(page, 0), pane(page, 1)];
+    const differ = async () => (await compare(page, await bone(first), await bone(second))).changed;
+    await drawn(page);
+    await expect.poll(differ, patiently).toBeLessThan(60);
 
-  // Turned on one, turned on both.
-  const turnedFrom = await bone(first);
-  await second.getByTestId('bone-canvas').focus();
-  for (let i = 0; i < 4; ++i) await page.keyboard.press('ArrowLeft');
-  await expect.poll(() => changed(page, first, turnedFrom), patiently).toBeGreaterThan(2000);
-  await expect.poll(differ, patiently).toBeLessThan(60);
+    // Turned on one, turned on both.
+    const turnedFrom = await bone(first);
+    await second.getByTestId('bone-canvas').focus();
+    for (let i = 0; i < 4; ++i) await page.keyboard.press('ArrowLeft');
+    await expect.poll(() => changed(page, first, turnedFrom), patiently).toBeGreaterThan(2000);
+    await expect.poll(differ, patiently).toBeLessThan(60);
 
-  // Each at its own moment; keys are for the one in use.
-  await page.keyboard.press('b');
-  await expect(second.getByTestId('after')).toHaveAttribute('aria-pressed', 'true');
-  await expect(first).toHaveAttribute('data-position', '0');
-  await page.getByTestId('view-axis').click();
-  await drawn(page);
-  const bare = [await bone(first), await bone(second)];
-  await first.getByTestId('map-plan').click();
-  await second.getByTestId('map-plan').click();
-  for (const of of [first, second]) await expect(shown(of)).toHaveAttribute('data-map', 'plan', { timeout: 90_000 });
-  for (const [i, of] of [first, second].entries())
-    await expect.poll(() => changed(page, of, bare[i] ?? ''), patiently).toBeGreaterThan(5000);
-  await expect(page.getByTestId('mark-1')).toContainText('Theatre');
-  await page.screenshot({ path: info.outputPath('side-by-side.png') });
+    // Each at its own moment; keys are for the one in use.
+    await page.keyboard.press('b');
+    await expect(second.getByTestId('after')).toHaveAttribute('aria-pressed', 'true');
+    await expect(first).toHaveAttribute('data-position', '0');
+    await page.getByTestId('view-axis').click();
+    await drawn(page);
+    const bare = [await bone(first), await bone(second)];
+    await first.getByTestId('map-plan').click();
+    await second.getByTestId('map-plan').click();
+    for (const of of [first, second]) await expect(shown(of)).toHaveAttribute('data-map', 'plan', { timeout: 90_000 });
+    for (const [i, of] of [first, second].entries())
+      await expect.poll(() => changed(page, of, bare[i] ?? ''), patiently).toBeGreaterThan(5000);
+    await expect(page.getByTestId('mark-1')).toContainText('Theatre');
+    await page.screenshot({ path: info.outputPath('side-by-side.png') });
 
-  await first.getByTestId('speed').selectOption('4');
-  await first.getByTestId('play').click();
-  await expect.poll(async () => Number(await first.getAttribute('data-position'))).toBeGreaterThan(1000);
-  await page.getByTestId('close-0').click();
-  await expect(page).toHaveURL(new RegExp(`#/review/${short}$`));
-  // What was chosen of the one that stays is kept.
-  await expect(pane(page)).toHaveAttribute('data-session', short);
-  await expect(shown(pane(page))).toHaveAttribute('data-map', 'plan');
-});
+    await first.getByTestId('speed').selectOption('4');
+    await first.getByTestId('play').click();
+    await expect.poll(async () => Number(await first.getAttribute('data-position'))).toBeGreaterThan(1000);
+    await page.getByTestId('close-0').click();
+    await expect(page).toHaveURL(new RegExp(`#/review/${short}$`));
+    // What was chosen of the one that stays is kept.
+    await expect(pane(page)).toHaveAttribute('data-session', short);
+    await expect(shown(pane(page))).toHaveAttribute('data-map', 'plan');
+  },
+);
 
-test('says what is wrong and what to do: links that end, a server that is gone, a session that was deleted', async ({
-  page,
-  browser,
-}, info) => {
-  test.setTimeout(540_000);
-  const [id = ''] = await recorded(page, 5000);
-  await review(page, id);
+test(
+  'says what is wrong and what to do: links that end, a server that is gone, a session that was deleted',
+  { tag: '@full' },
+  async ({ page, browser }, info) => {
+    test.setTimeout(540_000);
+    const [id = ''] = await recorded(page, 5000);
+    await review(page, id);
 
-  // A link to this review, for somebody without an account.
-  await page.getByTestId('share-review').click();
-  await page.getByTestId('make-link').click();
-  const address = await page.getByTestId('link-address').inputValue();
-  expect(address).toContain(`/review/${id}`);
-  const context = await browser.newContext();
-  const guest = await context.newPage();
-  here.watchForErrors(guest);
-  await guest.goto(address);
-  await expect(pane(guest)).toHaveAttribute('data-position', '0', { timeout: 60_000 });
-  expect(guest.url()).not.toContain('watch=');
-  await expect(guest.getByTestId('mark-0')).toContainText('Rubric');
-  await expect(guest.getByTestId('files')).toContainText('Log in');
-  await expect(guest.getByTestId('no-trace')).toContainText(/viewer link/i);
-  await guest.getByTestId('map-plan').click();
-  await expect(guest.getByTestId('map-problem')).toContainText('Log in');
-  await guest.screenshot({ path: info.outputPath('guest.png') });
-  const { links } = (await call(page, 'GET', 'links')) as { links: { id: string }[] };
-  for (const link of links) await call(page, 'DELETE', `links/${link.id}`);
-  await expect(guest.getByTestId('login-problem')).toContainText('viewer link has ended', { timeout: 60_000 });
-  await context.close();
+    // A link to this review, for somebody without an account.
+    await page.getByTestId('share-review').click();
+    await page.getByTestId('make-link').click();
+    const address = await page.getByTestId('link-address').inputValue();
+    expect(address).toContain(`/review/${id}`);
+    const context = await browser.newContext();
+    const guest = await context.newPage();
+    here.watchForErrors(guest);
+    await guest.goto(address);
+    await expect(pane(guest)).toHaveAttribute('data-position', '0', { timeout: 60_000 });
+    expect(guest.url()).not.toContain('watch=');
+    await expect(guest.getByTestId('mark-0')).toContainText('Rubric');
+    await expect(guest.getByTestId('files')).toContainText('Log in');
+    await expect(guest.getByTestId('no-trace')).toContainText(/viewer link/i);
+    await guest.getByTestId('map-plan').click();
+    await expect(guest.getByTestId('map-problem')).toContainText('Log in');
+    await guest.screenshot({ path: info.outputPath('guest.png') });
+    const { links } = (await call(page, 'GET', 'links')) as { links: { id: string }[] };
+    for (const link of links) await call(page, 'DELETE', `links/${link.id}`);
+    await expect(guest.getByTestId('login-problem')).toContainText('viewer link has ended', { timeout: 60_000 });
+    await context.close();
 
-  // The network is cut: nothing counts as up to date, and it comes back by itself at the same moment.
-  await page.getByTestId('seek').fill('3');
-  await expect(pane(page)).toHaveAttribute('data-position', '3000');
-  await here.server.kill();
-  await expect(page.getByTestId('link-notice')).toContainText('lost', { timeout: 30_000 });
-  await expect(shown(pane(page))).toHaveAttribute('data-stale', 'true');
-  await page.screenshot({ path: info.outputPath('cut.png') });
-  await here.server.start();
-  await expect(shown(pane(page))).toHaveAttribute('data-stale', 'false', { timeout: 90_000 });
-  await expect(pane(page)).toHaveAttribute('data-position', '3000', { timeout: 30_000 });
+    // The network is cut: nothing counts as up to date, and it comes back by itself at the same moment.
+    await page.getByTestId('seek').fill('3');
+    await expect(pane(page)).toHaveAttribute('data-position', '3000');
+    await here.server.kill();
+    await expect(page.getByTestId('link-notice')).toContainText('lost', { timeout: 30_000 });
+    await expect(shown(pane(page))).toHaveAttribute('data-stale', 'true');
+    await page.screenshot({ path: info.outputPath('cut.png') });
+    await here.server.start();
+    await expect(shown(pane(page))).toHaveAttribute('data-stale', 'false', { timeout: 90_000 });
+    await expect(pane(page)).toHaveAttribute('data-position', '3000', { timeout: 30_000 });
 
-  // Deleted under the eyes of who looks at it, and restored.
-  await call(page, 'DELETE', `sessions/${id}`);
-  const sessionError = page.getByTestId('session-error');
-  await expect(sessionError).toContainText('deleted', { timeout: 30_000 });
-  await page.screenshot({ path: info.outputPath('deleted.png') });
-  await call(page, 'POST', `sessions/${id}/restore`);
-  await sessionError.getByRole('button').click();
-  await expect(shown(pane(page))).toHaveAttribute('data-stale', 'false', { timeout: 60_000 });
-  await page.goto(`${here.server.url}/#/review/nosuch12`);
-  await expect(sessionError).toHaveAttribute('data-kind', 'gone');
-  expect(await picture(sessionError)).not.toBe('');
-  await expect(page.getByTestId('export-pdf')).toBeDisabled();
-  await expect(page.getByTestId('score-file')).toHaveAttribute('aria-disabled', 'true');
-  await expect(page.getByTestId('score-file')).not.toHaveAttribute('href', /./);
-});
+    // Deleted under the eyes of who looks at it, and restored.
+    await call(page, 'DELETE', `sessions/${id}`);
+    const sessionError = page.getByTestId('session-error');
+    await expect(sessionError).toContainText('deleted', { timeout: 30_000 });
+    await page.screenshot({ path: info.outputPath('deleted.png') });
+    await call(page, 'POST', `sessions/${id}/restore`);
+    await sessionError.getByRole('button').click();
+    await expect(shown(pane(page))).toHaveAttribute('data-stale', 'false', { timeout: 60_000 });
+    await page.goto(`${here.server.url}/#/review/nosuch12`);
+    await expect(sessionError).toHaveAttribute('data-kind', 'gone');
+    expect(await picture(sessionError)).not.toBe('');
+    await expect(page.getByTestId('export-pdf')).toBeDisabled();
+    await expect(page.getByTestId('score-file')).toHaveAttribute('aria-disabled', 'true');
+    await expect(page.getByTestId('score-file')).not.toHaveAttribute('href', /./);
+  },
+);

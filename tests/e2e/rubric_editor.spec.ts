@@ -77,7 +77,7 @@ test('two who edit one rubric do not overwrite each other', async ({ page, conte
   await expect(other.getByTestId('rubric-pass')).toHaveValue('60');
 });
 
-test('a benchmark is made of sessions of experts', async ({ page }) => {
+test('a benchmark is made of sessions of experts', { tag: '@full' }, async ({ page }) => {
   test.setTimeout(240_000);
   await page.goto(`${here.server.url}/#/sessions`);
   await logIn(page, olga.name);

@@ -9,9 +9,13 @@ import type { DebugReadout } from '../../web/src/debug_readout';
 import { followRequests } from './settled';
 import { passwordOf, ServerProcess, type TestUser } from './server_process';
 
-class Surroundings {
-  /** Of the test that runs. */
-  server!: ServerProcess;
+interface WindowSize {
+  width: number;
+  height: number;
+}
+
+/** The windows of a test. */
+export class Windows {
   problems: string[] = [];
   private contexts: BrowserContext[] = [];
 
@@ -22,12 +26,12 @@ class Surroundings {
   }
 
   /** A window of somebody else, who logs in for themself; it is closed after the test. */
-  async windowOf(browser: Browser, viewport: { width: number; height: number }): Promise<Page> {
+  async openWindow(browser: Browser, viewport: WindowSize, url: string): Promise<Page> {
     const context = await browser.newContext({ viewport });
     this.contexts.push(context);
     const page = await context.newPage();
     this.watchForErrors(page);
-    await page.goto(this.server.url);
+    await page.goto(url);
     return page;
   }
 
@@ -35,6 +39,29 @@ class Surroundings {
   async closeWindows(): Promise<void> {
     for (const context of this.contexts.splice(0)) await context.close();
   }
+}
+
+class Surroundings extends Windows {
+  /** Of the test that runs. */
+  server!: ServerProcess;
+
+  windowOf(browser: Browser, viewport: WindowSize): Promise<Page> {
+    return this.openWindow(browser, viewport, this.server.url);
+  }
+}
+
+/** Before each test `begin`, after it `end`; an error in a window fails the test. */
+export function watchEachTest(here: Windows, begin: () => Promise<void>, end: () => Promise<void>): void {
+  test.beforeEach(async ({ page }) => {
+    here.problems = [];
+    here.watchForErrors(page);
+    await begin();
+  });
+  test.afterEach(async () => {
+    await here.closeWindows();
+    await end();
+    expect(here.problems).toEqual([]);
+  });
 }
 
 interface Beginning {
@@ -45,18 +72,12 @@ interface Beginning {
 /** To be called once in a file of tests. Without users everybody may do everything. */
 export function serverForEachTest(users: readonly TestUser[] = [], { emptyFolder }: Beginning = {}): Surroundings {
   const here = new Surroundings();
-  test.beforeEach(async ({ page }) => {
-    here.problems = [];
-    here.watchForErrors(page);
+  const begin = async () => {
     here.server = new ServerProcess(emptyFolder ? mkdtempSync(join(tmpdir(), 'ream-e2e-')) : undefined);
     for (const user of users) here.server.addUser(user);
     await here.server.start();
-  });
-  test.afterEach(async () => {
-    await here.closeWindows();
-    await here.server.dispose();
-    expect(here.problems).toEqual([]);
-  });
+  };
+  watchEachTest(here, begin, () => here.server.dispose());
   return here;
 }
 

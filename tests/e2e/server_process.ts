@@ -19,6 +19,24 @@ export const keptDemoVariable = 'REAM_KEPT_DEMO';
 
 export const passwordOf = (name: string) => `password of ${name}`;
 
+/** The first line that a program of ours prints: a server's says where it is. */
+export function firstLine(child: ChildProcess): Promise<string> {
+  return new Promise((found, failed) => {
+    if (child.stdout === null) throw new Error('its output goes elsewhere');
+    child.once('error', failed);
+    child.once('exit', (status) => failed(new Error(`${program} ended with ${String(status)} before it served`)));
+    createInterface({ input: child.stdout }).once('line', found);
+  });
+}
+
+/** Until it is gone. */
+export async function end(child: ChildProcess | null, signal: 'SIGINT' | 'SIGKILL'): Promise<void> {
+  if (child === null || child.exitCode !== null || child.signalCode !== null) return;
+  const gone = new Promise((resolve) => child.once('exit', resolve));
+  child.kill(signal);
+  await gone;
+}
+
 /** A `ream serve` of its own, with a data folder of its own. */
 export class ServerProcess {
   private child: ChildProcess | null = null;
@@ -56,21 +74,14 @@ export class ServerProcess {
     const args = ['serve', '--port', port, '--data', this.dataFolder, '--backend', this.backend, '--json'];
     const child = spawn(program, args, { stdio: ['ignore', 'pipe', 'inherit'] });
     this.child = child;
-    this.url = await new Promise<string>((found, failed) => {
-      child.once('error', failed);
-      child.once('exit', (status) => failed(new Error(`${program} ended with ${String(status)} before it served`)));
-      createInterface({ input: child.stdout }).once('line', (line) => found((JSON.parse(line) as { url: string }).url));
-    });
+    this.url = (JSON.parse(await firstLine(child)) as { url: string }).url;
   }
 
   /** Kills it without a chance to say goodbye. */
   async kill(): Promise<void> {
     const child = this.child;
     this.child = null;
-    if (child === null || child.exitCode !== null || child.signalCode !== null) return;
-    const gone = new Promise((resolve) => child.once('exit', resolve));
-    child.kill('SIGKILL');
-    await gone;
+    await end(child, 'SIGKILL');
   }
 
   async dispose(): Promise<void> {

@@ -48,24 +48,28 @@ test('a session is paused, goes on, and begins anew on intact bone as another se
   await expect(state(page)).toHaveAttribute('data-state', 'stopped');
 });
 
-test('a session whose page was closed can be continued or ended by who comes next', async ({ page, browser }) => {
-  await page.goto(here.server.url);
-  await untilLive(page);
-  await page.getByTestId('practise').click();
-  await page.waitForFunction(() => window.__ream.deviceLink === 'holding', null, { timeout: 60_000 });
-  await page.close();
+test(
+  'a session whose page was closed can be continued or ended by who comes next',
+  { tag: '@full' },
+  async ({ page, browser }) => {
+    await page.goto(here.server.url);
+    await untilLive(page);
+    await page.getByTestId('practise').click();
+    await page.waitForFunction(() => window.__ream.deviceLink === 'holding', null, { timeout: 60_000 });
+    await page.close();
 
-  const next = await (await browser.newContext()).newPage();
-  here.watchForErrors(next);
-  await next.goto(here.server.url);
-  await untilLive(next);
-  await expect(next.getByTestId('session-left')).toContainText('has left', { timeout: 60_000 });
-  await expect(next.getByTestId('take-over')).toHaveText('Continue it');
-  await next.getByTestId('stop').click();
-  await expect(state(next)).toHaveAttribute('data-state', 'stopped');
-  await expect(next.getByTestId('practise')).toBeEnabled();
-  await next.context().close();
-});
+    const next = await (await browser.newContext()).newPage();
+    here.watchForErrors(next);
+    await next.goto(here.server.url);
+    await untilLive(next);
+    await expect(next.getByTestId('session-left')).toContainText('has left', { timeout: 60_000 });
+    await expect(next.getByTestId('take-over')).toHaveText('Continue it');
+    await next.getByTestId('stop').click();
+    await expect(state(next)).toHaveAttribute('data-state', 'stopped');
+    await expect(next.getByTestId('practise')).toBeEnabled();
+    await next.context().close();
+  },
+);
 
 test('sessions are listed, sought, sorted, named and watched', async ({ page }) => {
   const first = await runDemo(page);

@@ -4,7 +4,8 @@ import { readFileSync } from 'node:fs';
 
 import { expect, type Page, test } from '@playwright/test';
 
-import { reamByKeysUntil } from './ream_a_moment';
+import { createFromTable } from './course_users';
+import { practise } from './ream_a_moment';
 import { logIn, readout, serverForEachTest, untilLive } from './server_for_each_test';
 import { passwordOf } from './server_process';
 
@@ -19,114 +20,95 @@ async function addUser(page: Page, name: string, displayName: string): Promise<v
   await page.getByRole('button', { name: 'Add', exact: true }).click();
 }
 
-/** Adds them by a table; their generated passwords, by name. */
-async function addByTable(page: Page, table: string): Promise<Map<string, string>> {
-  await page.getByLabel('Users as CSV').fill(table);
-  await page.getByTestId('bulk-create').click();
-  // Passwords are hashed slowly on purpose.
-  await expect(page.getByTestId('bulk-copy')).toBeVisible({ timeout: 60_000 });
-  const lines = (await page.getByTestId('bulk-passwords').inputValue()).trim().split(/\r?\n/);
-  return new Map(lines.slice(1).map((line) => line.split(',') as [string, string]));
-}
-
-/** A trainee's session, from the login to the first bone that is cut. */
-async function practise(page: Page, name: string, password: string): Promise<string> {
-  await logIn(page, name, password);
-  const start = page.getByRole('button', { name: 'Practise', exact: true });
-  // The server prepares its demo first.
-  await expect(start).toBeEnabled({ timeout: 120_000 });
-  await start.click();
-  await reamByKeysUntil(page, 10);
-  return (await readout(page)).sessionId ?? '';
-}
-
 for (const [width, height] of [
   [1280, 800],
   [390, 844],
 ] as const)
-  test(`an instructor gives a first course, from an empty server to a report, at ${width} px`, async ({
-    page,
-    browser,
-  }, info) => {
-    const look = (name: string, of = page) => of.screenshot({ path: info.outputPath(`${name}.png`) });
-    await page.setViewportSize({ width, height });
+  test(
+    `an instructor gives a first course, from an empty server to a report, at ${width} px`,
+    { tag: width < 600 ? ['@full'] : [] },
+    async ({ page, browser }, info) => {
+      const look = (name: string, of = page) => of.screenshot({ path: info.outputPath(`${name}.png`) });
+      await page.setViewportSize({ width, height });
 
-    // 1. The first user is an operator.
-    await page.goto(here.server.url);
-    await page.getByRole('link', { name: 'Users' }).click();
-    await expect(page.getByText('Login is off')).toBeVisible();
-    await look('1-first-user');
-    await addUser(page, 'olga', 'Olga Operator');
-    await expect(page.getByTestId('login-problem')).toContainText('A login is now required');
+      // 1. The first user is an operator.
+      await page.goto(here.server.url);
+      await page.getByRole('link', { name: 'Users' }).click();
+      await expect(page.getByText('Login is off')).toBeVisible();
+      await look('1-first-user');
+      await addUser(page, 'olga', 'Olga Operator');
+      await expect(page.getByTestId('login-problem')).toContainText('A login is now required');
 
-    // 2. An instructor, and two trainees by a table.
-    await logIn(page, 'olga');
-    await expect(page.getByTestId('user-olga')).toContainText('Operator');
-    await page.getByTestId('add-role').selectOption('instructor');
-    await addUser(page, 'ines', 'Ines Instructor');
-    await expect(page.getByTestId('user-ines')).toContainText('Instructor');
-    const table = 'name,role,display name,password\ntom,trainee,Tom Trainee,\nanna,trainee,Anna Example,';
-    const passwords = await addByTable(page, table);
-    for (const name of ['tom', 'anna']) await expect(page.getByTestId(`user-${name}`)).toContainText('Trainee');
-    await look('2-users');
-    await page.getByTestId('log-out').click();
+      // 2. An instructor, and two trainees by a table.
+      await logIn(page, 'olga');
+      await expect(page.getByTestId('user-olga')).toContainText('Operator');
+      await page.getByTestId('add-role').selectOption('instructor');
+      await addUser(page, 'ines', 'Ines Instructor');
+      await expect(page.getByTestId('user-ines')).toContainText('Instructor');
+      const table = 'name,role,display name,password\ntom,trainee,Tom Trainee,\nanna,trainee,Anna Example,';
+      await page.getByLabel('Users as CSV').fill(table);
+      const passwords = await createFromTable(page);
+      for (const name of ['tom', 'anna']) await expect(page.getByTestId(`user-${name}`)).toContainText('Trainee');
+      await look('2-users');
+      await page.getByTestId('log-out').click();
 
-    // 3. The instructor sees Overview.
-    await page.goto(here.server.url);
-    await logIn(page, 'ines');
-    await expect(page.getByTestId('none-live')).toContainText('No active sessions');
-    await look('3-overview');
+      // 3. The instructor sees Overview.
+      await page.goto(here.server.url);
+      await logIn(page, 'ines');
+      await expect(page.getByTestId('none-live')).toContainText('No active sessions');
+      await look('3-overview');
 
-    // 4. Both trainees practise, and appear.
-    const anna = await here.windowOf(browser, { width, height });
-    const annasSession = await practise(anna, 'anna', passwords.get('anna') ?? '');
-    await look('4-trainee', anna);
-    const tom = await here.windowOf(browser, { width, height });
-    const session = await practise(tom, 'tom', passwords.get('tom') ?? '');
-    const active = page.getByRole('region', { name: 'Active sessions' });
-    for (const who of ['Tom Trainee', 'Anna Example']) await expect(active).toContainText(who);
-    await expect(page.getByTestId(`tile-${annasSession}`)).toBeVisible();
-    await expect(page.getByTestId(`tile-${session}`).getByRole('img')).toBeVisible({ timeout: 60_000 });
-    await look('4-active-sessions');
-    await anna.getByRole('button', { name: 'Stop', exact: true }).click();
-    await expect(anna.getByTestId('result-card')).toBeVisible();
+      // 4. Both trainees practise, and appear.
+      const anna = await here.windowOf(browser, { width, height });
+      const annasSession = await practise(anna, 'anna', passwords.get('anna') ?? '');
+      await look('4-trainee', anna);
+      const tom = await here.windowOf(browser, { width, height });
+      const session = await practise(tom, 'tom', passwords.get('tom') ?? '');
+      const active = page.getByRole('region', { name: 'Active sessions' });
+      for (const who of ['Tom Trainee', 'Anna Example']) await expect(active).toContainText(who);
+      await expect(page.getByTestId(`tile-${annasSession}`)).toBeVisible();
+      await expect(page.getByTestId(`tile-${session}`).getByRole('img')).toBeVisible({ timeout: 60_000 });
+      await look('4-active-sessions');
+      await anna.getByRole('button', { name: 'Stop', exact: true }).click();
+      await expect(anna.getByTestId('result-card')).toBeVisible();
 
-    // 5. The instructor watches one live, and comments.
-    await page.getByTestId(`open-${session}`).click();
-    await untilLive(page);
-    expect((await readout(page)).sessionId).toBe(session);
-    await expect(page.getByTestId('session-labels')).toContainText('Tom Trainee');
-    await look('5-live');
-    const comments = page.getByRole('region', { name: 'Comments' });
-    await comments.getByRole('textbox').fill('Press a little less');
-    await look('5-comment');
-    await comments.getByRole('button', { name: /^Save/ }).click();
-    await expect(tom.getByTestId('comment-notice')).toContainText(/Ines Instructor.*Press a little less/);
-    await look('5-comment-arrives', tom);
+      // 5. The instructor watches one live, and comments.
+      await page.getByTestId(`open-${session}`).click();
+      await untilLive(page);
+      expect((await readout(page)).sessionId).toBe(session);
+      await expect(page.getByTestId('session-labels')).toContainText('Tom Trainee');
+      await look('5-live');
+      const comments = page.getByRole('region', { name: 'Comments' });
+      await comments.getByRole('textbox').fill('Press a little less');
+      await look('5-comment');
+      await comments.getByRole('button', { name: /^Save/ }).click();
+      await expect(tom.getByTestId('comment-notice')).toContainText(/Ines Instructor.*Press a little less/);
+      await look('5-comment-arrives', tom);
 
-    // 6. The trainee stops; the session stands in Overview with its points.
-    await tom.getByRole('button', { name: 'Stop', exact: true }).click();
-    await expect(tom.getByTestId('result-card')).toBeVisible();
-    await page.getByRole('link', { name: 'Overview' }).click();
-    const recent = page.getByTestId(`recent-${session}`);
-    await expect(recent).toContainText('Tom Trainee');
-    await expect(page.getByTestId(`points-${session}`)).toHaveText(/^\d+\.\d$/, { timeout: 60_000 });
-    await recent.scrollIntoViewIfNeeded();
-    await look('6-recent-sessions');
-    await recent.getByRole('link', { name: 'Review' }).click();
+      // 6. The trainee stops; the session stands in Overview with its points.
+      await tom.getByRole('button', { name: 'Stop', exact: true }).click();
+      await expect(tom.getByTestId('result-card')).toBeVisible();
+      await page.getByRole('link', { name: 'Overview' }).click();
+      const recent = page.getByTestId(`recent-${session}`);
+      await expect(recent).toContainText('Tom Trainee');
+      await expect(page.getByTestId(`points-${session}`)).toHaveText(/^\d+\.\d$/, { timeout: 60_000 });
+      await recent.scrollIntoViewIfNeeded();
+      await look('6-recent-sessions');
+      await recent.getByRole('link', { name: 'Review' }).click();
 
-    // 7. The review has the comment and the score; the report is a file.
-    await expect(page.getByTestId('pane-0')).toHaveAttribute('data-position', '0', { timeout: 60_000 });
-    await look('7-review');
-    await page.getByTestId('events').click();
-    await expect(page.getByTestId('event').filter({ hasText: 'Press a little less' })).toBeVisible();
-    await page.getByTestId('events').click();
-    await page.getByTestId('score').scrollIntoViewIfNeeded();
-    await expect(page.getByTestId('mark-0')).toContainText('of 100');
-    await look('7-score');
-    const download = page.waitForEvent('download', { timeout: 120_000 });
-    await page.getByRole('button', { name: 'Report (PDF)' }).click();
-    const report = readFileSync(await (await download).path());
-    expect(report.subarray(0, 4).toString()).toBe('%PDF');
-    await look('7-report');
-  });
+      // 7. The review has the comment and the score; the report is a file.
+      await expect(page.getByTestId('pane-0')).toHaveAttribute('data-position', '0', { timeout: 60_000 });
+      await look('7-review');
+      await page.getByTestId('events').click();
+      await expect(page.getByTestId('event').filter({ hasText: 'Press a little less' })).toBeVisible();
+      await page.getByTestId('events').click();
+      await page.getByTestId('score').scrollIntoViewIfNeeded();
+      await expect(page.getByTestId('mark-0')).toContainText('of 100');
+      await look('7-score');
+      const download = page.waitForEvent('download', { timeout: 120_000 });
+      await page.getByRole('button', { name: 'Report (PDF)' }).click();
+      const report = readFileSync(await (await download).path());
+      expect(report.subarray(0, 4).toString()).toBe('%PDF');
+      await look('7-report');
+    },
+  );

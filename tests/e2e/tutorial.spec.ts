@@ -114,7 +114,7 @@ test('by mouse the demo is reamed to its plan', async ({ page }, info) => {
   await expect(page.getByTestId('tutorial-offer')).toBeHidden();
 });
 
-test('by keys alone the demo is reamed to its plan', async ({ page }) => {
+test('by keys alone the demo is reamed to its plan', { tag: '@full' }, async ({ page }) => {
   await open(page);
   await page.getByTestId('tutorial-start').focus();
   await page.keyboard.press('Enter');
@@ -136,7 +136,7 @@ test('by keys alone the demo is reamed to its plan', async ({ page }) => {
   await expect(tutorial(page).getByRole('link')).toBeFocused();
 });
 
-test('who goes too deep is told so, and starts again on intact bone', async ({ page }, info) => {
+test('who goes too deep is told so, and starts again on intact bone', { tag: '@full' }, async ({ page }, info) => {
   await open(page);
   await page.getByTestId('tutorial-start').click();
   await untilHolding(page);
@@ -175,7 +175,7 @@ test('who goes too deep is told so, and starts again on intact bone', async ({ p
   await expect(page.getByTestId('depth')).toHaveText('0.00');
 });
 
-test('who has ended it early starts again, in a session that runs', async ({ page }) => {
+test('who has ended it early starts again, in a session that runs', { tag: '@full' }, async ({ page }) => {
   await open(page);
   await page.getByTestId('tutorial-start').click();
   await untilHolding(page);
@@ -221,7 +221,7 @@ test('it is skipped by one key, and no longer offered first', async ({ page }) =
   await expect(page.getByTestId('practise')).not.toHaveClass(/run-second/);
 });
 
-test('who does not want it is not asked again', async ({ page }) => {
+test('who does not want it is not asked again', { tag: '@full' }, async ({ page }) => {
   await open(page);
   await page.getByRole('button', { name: 'Not now' }).click();
   await expect(page.getByTestId('tutorial-offer')).toBeHidden();

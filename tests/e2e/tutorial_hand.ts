@@ -46,13 +46,16 @@ async function namedDepth(page: Page): Promise<number> {
   return Number(/at (\d+\.\d+) mm/.exec(sentence)?.[1]);
 }
 
-/** While something is held down, until the reading says that the plan is reached. */
+/** On a busy machine the page shows bone as gone some moments after it is. What was reamed meanwhile is within the plan's band. */
+const shownLateMm = 0.15;
+
+/** While something is held down, until the reading says that the plan is all but reached. */
 export async function untilNamedDepth(page: Page): Promise<void> {
   const planned = await namedDepth(page);
   expect(planned).toBeGreaterThan(0);
   await expect
     .poll(() => figure(page, 'depth'), { timeout: 120_000, intervals: [30] })
-    .toBeGreaterThanOrEqual(planned - 0.05);
+    .toBeGreaterThanOrEqual(planned - shownLateMm);
 }
 
 /** Does something again and again until the step is another; the page is given time to show what it did. */

@@ -10,6 +10,7 @@
 #include "ct/phantom/phantom.hpp"
 #include "ct/read/write_volume.hpp"
 #include "e2e/cli/serve_block_fixture.hpp"
+#include "support/full_tests.hpp"
 #include "support/places.hpp"
 #include "support/seed.hpp"
 
@@ -19,8 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// Set: every call fails in its turn, which takes an hour. Else some do.
-constexpr const char* every_fault_variable = "REAM_EVERY_DISK_FAULT";
+/// So many calls fail, each in a run of its own; in full tests every call does.
 constexpr int some_faults = 2;
 
 /// A disk fails once, in any call: the command says so in one line and leaves nothing half made, or it has
@@ -52,7 +52,7 @@ class DiskFault : public ServeBlock, public testing::WithParamInterface<const ch
   /// Which calls of so many fail.
   static std::set<long> faults_of(long calls) {
     std::set<long> numbers;
-    if (std::getenv(every_fault_variable) != nullptr) {
+    if (full_tests()) {
       for (long i = 1; i <= calls; ++i) numbers.insert(i);
       return numbers;
     }

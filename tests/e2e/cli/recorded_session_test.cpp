@@ -137,6 +137,9 @@ TEST_F(RecordedSession, DamageIsSaidAndWhatCameBeforeIsScored) {
   const json metrics = json::parse(scored.out).at("metrics");
   EXPECT_LT(metrics.at("duration_s").get<double>(), whole.at("duration_s").get<double>());
   EXPECT_GT(metrics.at("duration_s").get<double>(), 0.0);
+  const Outcome proof = run({"replay", "run", "--verify", "--json"});
+  EXPECT_EQ(proof.exit_code, 1);
+  EXPECT_EQ(json::parse(proof.out).at("verified"), false) << "of a part";
 }
 
 TEST_F(RecordedSession, WrongInputIsNamed) {

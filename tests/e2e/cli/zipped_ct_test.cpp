@@ -43,7 +43,7 @@ TEST_F(ZippedCt, BadArchivesGetOneLine) {
   zip("ct.zip", {{"slice.dcm", "x"}});
   refused("ct.zip/slice.dcm is cut short or not DICOM");
   write("ct.zip", text_of("ct.zip").substr(0, 40));
-  refused("ct.zip is no whole zip archive");
+  refused("ct.zip is not a valid zip archive");
 }
 
 TEST_F(ZippedCt, LyingHeadersGetOneLine) {
