@@ -39,6 +39,8 @@ export class Tutorial {
   /** Index into the steps; their number when all are done. */
   readonly step = signal(0);
   readonly astray = signal<Astray | null>(null);
+  /** The picture is there, and what is done in it counts. */
+  readonly begun = signal(false);
   readonly remembered = signal<'finished' | 'skipped' | null>(null);
   readonly stepName: ReadonlySignal<StepName | null> = computed(() => stepNames[this.step.value] ?? null);
   readonly input: ReadonlySignal<InputKind>;
@@ -130,6 +132,7 @@ export class Tutorial {
       this.session.value = id;
       this.step.value = 0;
       this.astray.value = null;
+      this.begun.value = false;
       if (this.parts.practiceStore.sessionId.peek() !== id) this.parts.practice.steer(id, 'guided');
     });
   }
@@ -160,8 +163,9 @@ export class Tutorial {
       store.reamerShown.value = true;
       practiceStore.hand.putAt(besideAtFirst, true);
       practiceStore.hand.setLevel(gentleN);
+      this.memory = freshMemory(view.eye());
+      this.begun.value = true;
     });
-    this.memory = freshMemory(view.eye());
   }
 
   private judge(session: string, memory: TutorialMemory): void {

@@ -108,6 +108,19 @@ describe('Tutorial', () => {
     expect(tutorial.stepName.value).toBe('aim');
   });
 
+  it('asks for nothing before the picture is there, whose coming turns it', async () => {
+    await tutorial.start();
+    expect(tutorial.begun.value).toBe(false);
+    look();
+    picture('a');
+    expect(tutorial.begun.value).toBe(true);
+    expect(tutorial.stepName.value).toBe('look');
+    await tutorial.again();
+    expect(tutorial.begun.value).toBe(false);
+    picture('b');
+    expect(tutorial.begun.value).toBe(true);
+  });
+
   it('keeps the reamer on the plan once it has been brought there', async () => {
     await tutorial.start();
     picture('a');

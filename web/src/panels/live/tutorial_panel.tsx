@@ -24,12 +24,13 @@ interface Parts {
 /** One step of the tutorial: what to do, why, and how one has left the path. */
 export function TutorialPanel({ store, tutorial, practice, toPicture }: Parts) {
   const name = tutorial.stepName.value;
+  const shown = tutorial.begun.value ? (name ?? 'finished') : 'loading';
   useEscape(() => {
     leave(tutorial);
     toPicture();
   });
   return (
-    <section class="tutorial" aria-labelledby="tutorial-title" data-testid="tutorial" data-step={name ?? 'finished'}>
+    <section class="tutorial" aria-labelledby="tutorial-title" data-testid="tutorial" data-step={shown}>
       <Progress step={tutorial.step.value} />
       <Words store={store} tutorial={tutorial} />
       {name !== null && <TutorialGauge step={name} store={store} practice={practice} />}
@@ -104,6 +105,8 @@ function NextThing({ store, tutorial }: Pick<Parts, 'store' | 'tutorial'>) {
   const name = tutorial.stepName.value;
   const planned = fixed(store.hello.value?.plannedDepthMm, 2);
   const depth = fixed(store.reading.value.telemetry?.depthMm, 2);
+  // What is done before the picture is there would have to be done again.
+  if (!tutorial.begun.value) return <p class="tutorial-why">{appText.loading}</p>;
   const todo =
     name === null ? tutorialText.closing(depth, planned) : tutorialText.todo[name](planned)[tutorial.input.value];
   return (
