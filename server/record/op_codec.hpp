@@ -1,5 +1,4 @@
 #pragma once
-#include <algorithm>
 #include <type_traits>
 
 #include "record/columns.hpp"

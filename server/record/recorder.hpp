@@ -1,7 +1,6 @@
 #pragma once
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "record/op_log.hpp"
 #include "record/recorded_bone.hpp"

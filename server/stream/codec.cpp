@@ -3,6 +3,7 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -15,6 +16,9 @@ namespace {
 /// Deep enough to lie in bone that the surface bounds, and no deeper than a thin cortex.
 constexpr float depth_samples = 0.75f;
 constexpr size_t vertices_per_byte = 4;
+/// One step of densities as they travel, and the most of them.
+constexpr double density_level_g_cc = 0.125;
+constexpr double max_density_level = 15.0;
 
 using surface::BlockVertex;
 
@@ -45,14 +49,18 @@ SurfaceClasses::SurfaceClasses(const voxel::BoneModel& bone)
       class_of_code_(voxel::class_table(bone.cortical_threshold_g_cc)),
       layout_(bone.grid) {}
 
-voxel::BoneClass SurfaceClasses::under(const surface::BlockVertex& vertex, uint32_t block, int stride) const {
+uint8_t SurfaceClasses::code_under(const surface::BlockVertex& vertex, uint32_t block, int stride) const {
   const Vec3f at_mm = surface::position_mm(vertex, layout_.coordinates(block), grid_.spacing_mm);
   const Vec3f outward = surface::direction_from_octahedral(vertex.ox, vertex.oy);
   const float depth_mm =
       depth_samples * static_cast<float>(stride) * static_cast<float>(grid_.min_spacing_mm());
   const Vec3i voxel = grid_.voxel_at((at_mm - depth_mm * outward).cast<double>());
   const Vec3i nearest = voxel.cwiseMax(0).cwiseMin(grid_.dims.array().matrix() - Vec3i::Ones());
-  return class_of_code_[density_[grid_.index(nearest)]];
+  return density_[grid_.index(nearest)];
+}
+
+voxel::BoneClass SurfaceClasses::under(const surface::BlockVertex& vertex, uint32_t block, int stride) const {
+  return class_of_code_[code_under(vertex, block, stride)];
 }
 
 std::vector<uint8_t> SurfaceClasses::packed(std::span<const surface::BlockVertex> vertices, uint32_t block,
@@ -63,6 +71,18 @@ std::vector<uint8_t> SurfaceClasses::packed(std::span<const surface::BlockVertex
     bytes[i / vertices_per_byte] |= static_cast<uint8_t>(
         static_cast<unsigned>(under(vertices[i], block, stride)) << (2 * (i % vertices_per_byte)));
   return bytes;
+}
+
+std::vector<uint8_t> SurfaceClasses::density_levels(std::span<const surface::BlockVertex> vertices,
+                                                    uint32_t block, int stride) const {
+  std::vector<uint8_t> levels;
+  for (size_t i = 0; !density_.empty() && i < vertices.size(); ++i) {
+    const uint8_t code = code_under(vertices[i], block, stride);
+    const double level =
+        code == voxel::cartilage_code ? 0.0 : std::round(voxel::density_g_cc(code) / density_level_g_cc);
+    levels.push_back(static_cast<uint8_t>(std::min(level, max_density_level)));
+  }
+  return levels;
 }
 
 EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t tick, int stride,
@@ -95,6 +115,8 @@ EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t 
     std::vector<uint8_t> levels(count);
     meshopt_remapVertexBuffer(levels.data(), removed.data(), removed.size(), 1, place.data());
     result.removed = RemovedBone::packed(levels);
+    if (classes != nullptr)
+      result.densities = RemovedBone::packed(classes->density_levels(vertices, mesh.block, stride));
   }
   result.vertices = encoded(meshopt_encodeVertexBufferBound(vertices.size(), sizeof(BlockVertex)),
                             [&](unsigned char* to, size_t size) {

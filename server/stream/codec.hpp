@@ -28,7 +28,13 @@ class SurfaceClasses {
   std::vector<uint8_t> packed(std::span<const surface::BlockVertex> vertices, uint32_t block,
                               int stride) const;
 
+  /// Apparent density at the same places, as MeshBlock.densities, one level a vertex.
+  std::vector<uint8_t> density_levels(std::span<const surface::BlockVertex> vertices, uint32_t block,
+                                      int stride) const;
+
  private:
+  uint8_t code_under(const surface::BlockVertex& vertex, uint32_t block, int stride) const;
+
   voxel::VoxelGrid grid_;
   voxel::SharedBytes density_;
   std::array<voxel::BoneClass, 256> class_of_code_;
@@ -46,9 +52,12 @@ struct EncodedBlock {
   std::vector<std::byte> vertices, indices;
   std::vector<uint8_t> classes;  ///< as SurfaceClasses::packed; empty where they are not known
   std::vector<uint8_t> removed;  ///< as RemovedBone::packed; empty where nothing is gone
+  std::vector<uint8_t> densities = {};  ///< as MeshBlock.densities; empty where removed is, or classes are
 
   bool empty() const { return index_count == 0; }
-  size_t bytes() const { return vertices.size() + indices.size() + classes.size() + removed.size(); }
+  size_t bytes() const {
+    return vertices.size() + indices.size() + classes.size() + removed.size() + densities.size();
+  }
 };
 
 using SharedBlock = std::shared_ptr<const EncodedBlock>;

@@ -91,7 +91,7 @@ Message tool_message(const TriangleMesh& mesh, const std::string& tool_name) {
 
 Message mesh_message(std::span<const SharedBlock> blocks, bool key_complete) {
   size_t bytes = 1024;
-  for (const SharedBlock& block : blocks) bytes += block->bytes() + 96;
+  for (const SharedBlock& block : blocks) bytes += block->bytes() + 112;
   FlatBufferBuilder builder(bytes);
   std::vector<flatbuffers::Offset<wire::MeshBlock>> tables;
   for (const SharedBlock& block : blocks) {
@@ -99,9 +99,10 @@ Message mesh_message(std::span<const SharedBlock> blocks, bool key_complete) {
     const auto indices = aligned_bytes(builder, block->indices);
     const auto classes = builder.CreateVector(block->classes);
     const auto removed = block->removed.empty() ? 0 : builder.CreateVector(block->removed);
+    const auto densities = block->densities.empty() ? 0 : builder.CreateVector(block->densities);
     tables.push_back(wire::CreateMeshBlock(builder, block->block, block->revision, block->tick,
                                            block->vertex_count, block->index_count, vertices, indices,
-                                           classes, removed));
+                                           classes, removed, densities));
   }
   const auto list = builder.CreateVector(tables);
   return finished(builder, wire::Body::MeshDelta, wire::CreateMeshDelta(builder, list, key_complete));

@@ -1,8 +1,6 @@
 #pragma once
-#include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "device/device_setup.hpp"
 #include "geometry/pose.hpp"

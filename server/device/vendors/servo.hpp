@@ -1,6 +1,4 @@
 #pragma once
-#include <array>
-#include <atomic>
 #include <memory>
 
 #include "core/clock.hpp"

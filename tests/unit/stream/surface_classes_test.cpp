@@ -71,6 +71,49 @@ TEST(SurfaceClasses, FollowTheVerticesThroughTheCodec) {
   }
 }
 
+TEST(SurfaceClasses, TellDensityWhereBoneIsGone) {
+  const voxel::BoneModel bone = half_cortical();
+  const SurfaceClasses classes(bone);
+  const surface::BlockMesh mesh = surface::BlockExtractor(bone.grid).extract(bone.coverage.data(), 1);
+  const std::vector<uint8_t> gone(mesh.vertices.size(), 15);
+  const EncodedBlock encoded = encode(mesh, 1, 1, 1, &classes, gone);
+  const std::vector<surface::BlockVertex> vertices = decode(encoded).vertices;
+  ASSERT_EQ(encoded.densities.size(), (vertices.size() + 1) / 2);
+  std::array<size_t, 16> counts{};
+  for (size_t i = 0; i < vertices.size(); ++i) {
+    const unsigned level = encoded.densities[i / 2] >> (4 * (i % 2)) & 15u;
+    ++counts[level];
+    // 0.4 g/cc is nearest to 3 steps of 0.125, 1.8 to 14.
+    const BoneClass kind = classes.under(vertices[i], 1, 1);
+    EXPECT_EQ(level, kind == BoneClass::cancellous ? 3u : kind == BoneClass::cortical ? 14u : 0u);
+  }
+  EXPECT_GT(counts[3] + counts[14], 0u);
+  EXPECT_GT(counts[0], 0u);
+
+  const auto block = std::make_shared<const EncodedBlock>(encoded);
+  const Message message = mesh_message(std::vector<SharedBlock>{block}, true);
+  ASSERT_TRUE(verified(message->data(), message->size()));
+  const auto* sent =
+      wire::GetServerMessage(message->data())->body_as_MeshDelta()->blocks()->Get(0)->densities();
+  ASSERT_NE(sent, nullptr);
+  EXPECT_EQ(std::vector<uint8_t>(sent->begin(), sent->end()), encoded.densities);
+}
+
+TEST(SurfaceClasses, DensityIsLeftOutWhereNothingIsGoneOrKindsAreHidden) {
+  const voxel::BoneModel bone = half_cortical();
+  const SurfaceClasses classes(bone);
+  const surface::BlockMesh mesh = surface::BlockExtractor(bone.grid).extract(bone.coverage.data(), 1);
+  const std::vector<uint8_t> gone(mesh.vertices.size(), 15);
+  EXPECT_TRUE(encode(mesh, 1, 1, 1, &classes).densities.empty());
+  const EncodedBlock hidden = encode(mesh, 1, 1, 1, nullptr, gone);
+  EXPECT_FALSE(hidden.removed.empty());
+  EXPECT_TRUE(hidden.densities.empty()) << "plates of a study of feel must not say what they are made of";
+  voxel::BoneModel without = bone;
+  without.density = {};
+  const SurfaceClasses none(without);
+  EXPECT_TRUE(encode(mesh, 1, 1, 1, &none, gone).densities.empty());
+}
+
 TEST(SurfaceClasses, AreLeftOutWhereNobodyKnowsTheBone) {
   const voxel::BoneModel bone = half_cortical();
   const surface::BlockMesh mesh = surface::BlockExtractor(bone.grid).extract(bone.coverage.data(), 0);

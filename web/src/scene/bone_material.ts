@@ -37,3 +37,12 @@ export function lookOfBone(material: MeshStandardMaterial, opacity: number, cuts
   material.opacity = opacity;
   material.clippingPlanes = cuts.length > 0 ? cuts : null;
 }
+
+/** Whether a material is compiled with that name. */
+export function defineIn(material: MeshStandardMaterial, name: string, wanted: boolean): void {
+  const { defines = {} } = material;
+  if (wanted === name in defines) return;
+  if (wanted) defines[name] = '';
+  else delete defines[name];
+  material.needsUpdate = true;
+}

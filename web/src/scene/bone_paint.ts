@@ -1,7 +1,7 @@
 import { Color, Matrix4, type MeshStandardMaterial, Quaternion, Vector3 } from 'three';
 
 import type { Pose, ToolMesh } from '../wire/messages';
-import { boneMaterial } from './bone_material';
+import { boneMaterial, defineIn } from './bone_material';
 import {
   cutBoneColours,
   cutInFragment,
@@ -12,6 +12,15 @@ import {
   wholeBoneColour,
 } from './cut_bone';
 import { faceHeights } from './face_heights';
+import {
+  paintPores,
+  poreColours,
+  poresDefine,
+  poresInFragment,
+  poresInVertex,
+  poresVertexAssignment,
+  wetPores,
+} from './pores';
 
 /** What the kinds of bone are painted with, apart for every kind of colour vision; CSS colours. */
 export const kindColours = { cortical: wholeBoneColour, cancellous: '#d9822b', cartilage: '#5aa2d6' };
@@ -24,7 +33,7 @@ const heightCount = 33;
 /** Defined while the bone is painted by its kinds: a plain one costs no more than it must. */
 const painted = 'BONE_PAINTED';
 
-const inVertex = `${cutInVertex}
+const inVertex = `${cutInVertex}${poresInVertex}
 #ifdef ${painted}
 uniform mat4 toolFromWorld;
 varying vec3 vKinds;
@@ -33,14 +42,14 @@ varying vec3 vInTool;
 `;
 const vertexAssignment = `
 #include <project_vertex>
-${cutVertexAssignment}
+${cutVertexAssignment}${poresVertexAssignment}
 #ifdef ${painted}
 float boneKind = boneKindOf(boneMarks);
 vKinds = vec3(boneKind == 0.0, boneKind == 1.0, boneKind == 2.0);
 vInTool = (toolFromWorld * modelMatrix * vec4(transformed, 1.0)).xyz;
 #endif
 `;
-const inFragment = `${cutInFragment}
+const inFragment = `${cutInFragment}${poresInFragment}
 #ifdef ${painted}
 uniform bool contactShown;
 uniform vec3 kindColour[3];
@@ -75,6 +84,7 @@ if (touchesReamer()) {
   diffuseColor.rgb = mix(diffuseColor.rgb, touchedColour, line < 0.5 ? 0.85 : 0.45);
 }
 #endif
+${paintPores}
 diffuseColor.rgb = mix(diffuseColor.rgb, cutBone, cutShare);
 `;
 
@@ -85,6 +95,7 @@ diffuseColor.rgb = mix(diffuseColor.rgb, cutBone, cutShare);
 export class BonePaint {
   readonly material: MeshStandardMaterial;
   private readonly toolFromWorld = { value: new Matrix4() };
+  private readonly boneFromWorld = { value: new Matrix4() };
   private readonly contactShown = { value: false };
   private readonly faceReachMm = { value: 0 };
   private readonly faceHeightMm = { value: new Float32Array(heightCount) };
@@ -99,11 +110,13 @@ export class BonePaint {
       const { cancellous, cortical, cartilage } = kindColours;
       Object.assign(shader.uniforms, {
         toolFromWorld: this.toolFromWorld,
+        boneFromWorld: this.boneFromWorld,
         contactShown: this.contactShown,
         faceReachMm: this.faceReachMm,
         faceHeightMm: this.faceHeightMm,
         kindColour: { value: [cancellous, cortical, cartilage].map((colour) => new Color(colour)) },
         touchedColour: { value: new Color(contactColour) },
+        poreColour: { value: [poreColours.wall, poreColours.marrow].map((colour) => new Color(colour)) },
         cutColour: { value: [cutBoneColours.cancellous, cutBoneColours.compact].map((colour) => new Color(colour)) },
       });
       shader.vertexShader = inVertex + shader.vertexShader.replace('#include <project_vertex>', vertexAssignment);
@@ -111,7 +124,7 @@ export class BonePaint {
         inFragment +
         shader.fragmentShader
           .replace('#include <color_fragment>', paintKinds)
-          .replace('#include <roughnessmap_fragment>', `#include <roughnessmap_fragment>${wetCut}`);
+          .replace('#include <roughnessmap_fragment>', `#include <roughnessmap_fragment>${wetCut}${wetPores}`);
       paintInside(shader, renderer);
     };
     this.material.customProgramCacheKey = () => 'bone by its kinds';
@@ -125,13 +138,14 @@ export class BonePaint {
 
   setToolPose(pose: Pose | null): void {
     this.posed = pose !== null;
-    if (pose !== null) {
-      const { rotationXyzw, translationMm } = pose;
-      this.toolFromWorld.value
-        .compose(new Vector3(...translationMm), new Quaternion(...rotationXyzw), new Vector3(1, 1, 1))
-        .invert();
-    }
+    if (pose !== null) putInverse(pose, this.toolFromWorld.value);
     this.refresh();
+  }
+
+  /** How far the bone has moved from where the hello has it: its pores move with it. Null: not at all. */
+  setBonePose(worldFromBoneRest: Pose | null): void {
+    if (worldFromBoneRest === null) this.boneFromWorld.value.identity();
+    else putInverse(worldFromBoneRest, this.boneFromWorld.value);
   }
 
   /** Whether the reamer presses on bone now. */
@@ -141,12 +155,14 @@ export class BonePaint {
   }
 
   setWanted(wanted: boolean): void {
-    if (wanted !== this.wanted) this.material.needsUpdate = true;
     this.wanted = wanted;
-    const { defines = {} } = this.material;
-    if (wanted) defines[painted] = '';
-    else delete defines[painted];
+    defineIn(this.material, painted, wanted);
     this.refresh();
+  }
+
+  /** Whether spongy bone that was cut shows its pores. */
+  setPores(shown: boolean): void {
+    defineIn(this.material, poresDefine, shown);
   }
 
   dispose(): void {
@@ -156,4 +172,8 @@ export class BonePaint {
   private refresh(): void {
     this.contactShown.value = this.wanted && this.posed && this.touching;
   }
+}
+
+function putInverse({ rotationXyzw, translationMm }: Pose, into: Matrix4): void {
+  into.compose(new Vector3(...translationMm), new Quaternion(...rotationXyzw), new Vector3(1, 1, 1)).invert();
 }

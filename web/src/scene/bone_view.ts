@@ -46,6 +46,7 @@ export class BoneView {
   setPose(worldFromBoneRest: Pose | null): void {
     this.group.position.set(...(worldFromBoneRest?.translationMm ?? [0, 0, 0]));
     this.group.quaternion.set(...(worldFromBoneRest?.rotationXyzw ?? [0, 0, 0, 1]));
+    this.paint.setBonePose(worldFromBoneRest);
   }
 
   /** How much of it is seen: opacity 0 to 1; what lies on the negative side of any plane (world frame) is left out. */

@@ -18,9 +18,11 @@ attribute float ${marksAttribute};
 varying float vGone;
 varying float vSpongy;
 float boneKindOf(float marks) { return mod(marks, ${goneStep.toFixed(1)}) - 1.0; }
+float boneGoneOf(float marks) { return mod(floor(marks / ${goneStep.toFixed(1)}), ${(mostGone + 1).toFixed(1)}); }
+float boneDensityOf(float marks) { return floor(marks / ${(goneStep * (mostGone + 1)).toFixed(1)}); }
 `;
 export const cutVertexAssignment = `
-vGone = floor(${marksAttribute} / ${goneStep.toFixed(1)}) / ${mostGone.toFixed(1)};
+vGone = boneGoneOf(${marksAttribute}) / ${mostGone.toFixed(1)};
 vSpongy = boneKindOf(${marksAttribute}) == 1.0 ? 0.0 : 1.0;
 `;
 export const cutInFragment = `

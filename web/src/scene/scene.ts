@@ -19,6 +19,7 @@ import { plainView, type ViewChoices } from '../state/view_settings';
 import { type Hello, isTwoPlates, type MeshDelta, type Pose, type ToolMesh } from '../wire/messages';
 import type { Surface } from '../wire/ply';
 import { AimView } from './aim_view';
+import { AmbientOcclusion } from './ambient_occlusion';
 import { BoneView, type BoneReplacement } from './bone_view';
 import { MovingParts } from './moving_parts';
 import { OrbitCamera, type ViewName } from './orbit_camera';
@@ -61,6 +62,7 @@ export class BoneScene implements SteeredView {
   readonly inSoftware = drawsInSoftware();
   private readonly aim = new AimView();
   private readonly lights: OperatingLights;
+  private readonly occlusion = new AmbientOcclusion();
   private readonly orbit: OrbitCamera;
   private readonly surgeon: SurgeonCamera;
   /** Makes what lies behind the nearest bone unseen where the bone is seen through. */
@@ -96,6 +98,7 @@ export class BoneScene implements SteeredView {
     );
     this.surgeon = new SurgeonCamera(this.orbit);
     this.lights = new OperatingLights(this.scene);
+    for (const material of [this.bone.paint.material, this.surroundings.material]) this.occlusion.darken(material);
     this.headset = new Headset(
       this.renderer,
       () => this.draw(),
@@ -134,6 +137,7 @@ export class BoneScene implements SteeredView {
     this.headset.dispose();
     this.bone.dispose();
     this.surroundings.dispose();
+    this.occlusion.dispose();
     this.field.dispose();
     this.tool.dispose();
     this.renderer.dispose();
@@ -301,15 +305,18 @@ export class BoneScene implements SteeredView {
     this.drawnAtMs = beganMs;
     if (!worn) camera.updateMatrixWorld();
     const seenThrough = this.choices.seeThrough && this.choices.opacity < 1;
-    this.lights.throwShadows(this.quality.level.peek() === 'fine' && !seenThrough && !worn);
+    const fine = this.quality.level.peek() === 'fine' && !seenThrough && !worn;
+    this.lights.throwShadows(fine);
     this.lights.follow(camera);
     const cuts = this.cuts(camera);
+    this.bone.paint.setPores(this.quality.full.peek());
     this.bone.setLook(seenThrough ? this.choices.opacity : 1, cuts);
     this.surroundings.setLook(seenThrough, cuts);
     this.field.setShown(this.inTheatre, this.quality.full.peek());
     const look = this.inTheatre ? 'steel' : seenThrough ? 'throughBone' : 'glass';
     this.tool.setLook(look, this.quality.full.peek(), cuts.length === 0);
     this.toolMoves = this.tool.step(seconds);
+    this.occlusion.measure(fine, this.renderer, this.scene, camera, cuts);
     if (seenThrough) this.drawSeenThrough(cuts, camera);
     else this.renderer.render(this.scene, camera);
     ++this.drawn;

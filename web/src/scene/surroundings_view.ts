@@ -17,7 +17,7 @@ const reamersDepthMm = 12;
 /** What of the scapula lies around the bone that is reamed; it never changes, and nothing is picked on it. */
 export class SurroundingsView {
   readonly group = new Group();
-  private readonly material = boneMaterial();
+  readonly material = boneMaterial();
   private mesh: Mesh | null = null;
   private surface: Surface | null = null;
   private hello: Hello | null = null;

@@ -31,7 +31,7 @@ export function decodeBlock(block: MeshBlock, voxelSpacingMm: Triple): BlockSurf
     }
   }
   const normals = stretchedNormals(vertices, vertexCount, voxelSpacingMm);
-  putBoneMarks(normals, vertexCount, block.classesArray(), block.removedArray());
+  putBoneMarks(normals, vertexCount, block.classesArray(), block.removedArray(), block.densitiesArray());
   return {
     block: block.block(),
     revision: block.revision(),

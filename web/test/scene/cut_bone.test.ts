@@ -3,6 +3,8 @@ import { Color } from 'three';
 import { describe, expect, it } from 'vitest';
 
 import { cutBoneColours, wholeBoneColour } from '../../src/scene/cut_bone';
+import { lightInShadow } from '../../src/scene/lights';
+import { poreColours } from '../../src/scene/pores';
 
 type Rows = readonly [readonly number[], readonly number[], readonly number[]];
 /** How colours are seen, linear RGB: Machado, Oliveira and Fernandes 2009, severity 1. */
@@ -37,8 +39,21 @@ function luminance(css: string, rows: Rows): number {
 }
 
 describe.each(Object.entries(seenBy))('%s', (_, rows) => {
-  it.each(Object.entries(cutBoneColours))('tell %s bone that was cut from bone that is whole', (_kind, cut) => {
+  it.each(Object.entries({ ...cutBoneColours, ...poreColours }))('tell %s bone that was cut from bone that is whole', (_kind, cut) => {
     const contrast = (luminance(wholeBoneColour, rows) + 0.05) / (luminance(cut, rows) + 0.05);
     expect(contrast).toBeGreaterThanOrEqual(3);
+  });
+
+  it.each(Object.entries({ ...cutBoneColours, ...poreColours }))(
+    'tell lit %s bone that was cut from bone that is whole and lies in a shadow',
+    (_kind, cut) => {
+      const whole = lightInShadow * luminance(wholeBoneColour, rows);
+      expect((whole + 0.05) / (luminance(cut, rows) + 0.05)).toBeGreaterThanOrEqual(3);
+    },
+  );
+
+  it('tell the walls of spongy bone from its marrow', () => {
+    const contrast = (luminance(poreColours.wall, rows) + 0.05) / (luminance(poreColours.marrow, rows) + 0.05);
+    expect(contrast).toBeGreaterThanOrEqual(1.5);
   });
 });

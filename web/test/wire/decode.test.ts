@@ -52,8 +52,8 @@ describe('StreamDecoder', () => {
       [1024, 2048, 34816],
       [1536, 1536, 512],
     ]);
-    // Kinds 0 1 2 1 2; gone 0 15 3 0 8.
-    expect([0, 1, 2, 3, 4].map((v) => full?.normals[4 * v + 3])).toEqual([1, 62, 15, 2, 35]);
+    // Kinds 0 1 2 1 2; gone 0 15 3 0 8; steps of density 0 3 15 1 8.
+    expect([0, 1, 2, 3, 4].map((v) => full?.normals[4 * v + 3])).toEqual([1, 254, 975, 66, 547]);
     expect(full?.indices).toBeInstanceOf(Uint16Array);
     expect(cyclicTriangles(full?.indices ?? [])).toEqual([
       [0, 1, 2],
