@@ -16,9 +16,7 @@ namespace {
 /// Deep enough to lie in bone that the surface bounds, and no deeper than a thin cortex.
 constexpr float depth_samples = 0.75f;
 constexpr size_t vertices_per_byte = 4;
-/// One step of densities as they travel, and the most of them.
 constexpr double density_level_g_cc = 0.125;
-constexpr double max_density_level = 15.0;
 
 using surface::BlockVertex;
 
@@ -49,40 +47,38 @@ SurfaceClasses::SurfaceClasses(const voxel::BoneModel& bone)
       class_of_code_(voxel::class_table(bone.cortical_threshold_g_cc)),
       layout_(bone.grid) {}
 
-uint8_t SurfaceClasses::code_under(const surface::BlockVertex& vertex, uint32_t block, int stride) const {
-  const Vec3f at_mm = surface::position_mm(vertex, layout_.coordinates(block), grid_.spacing_mm);
-  const Vec3f outward = surface::direction_from_octahedral(vertex.ox, vertex.oy);
+std::vector<uint8_t> SurfaceClasses::codes(std::span<const surface::BlockVertex> vertices, uint32_t block,
+                                           int stride) const {
+  std::vector<uint8_t> codes;
+  if (density_.empty()) return codes;
+  codes.reserve(vertices.size());
   const float depth_mm =
       depth_samples * static_cast<float>(stride) * static_cast<float>(grid_.min_spacing_mm());
-  const Vec3i voxel = grid_.voxel_at((at_mm - depth_mm * outward).cast<double>());
-  const Vec3i nearest = voxel.cwiseMax(0).cwiseMin(grid_.dims.array().matrix() - Vec3i::Ones());
-  return density_[grid_.index(nearest)];
+  for (const surface::BlockVertex& vertex : vertices) {
+    const Vec3f at_mm = surface::position_mm(vertex, layout_.coordinates(block), grid_.spacing_mm);
+    const Vec3f outward = surface::direction_from_octahedral(vertex.ox, vertex.oy);
+    const Vec3i voxel = grid_.voxel_at((at_mm - depth_mm * outward).cast<double>());
+    const Vec3i nearest = voxel.cwiseMax(0).cwiseMin(grid_.dims.array().matrix() - Vec3i::Ones());
+    codes.push_back(density_[grid_.index(nearest)]);
+  }
+  return codes;
 }
 
-voxel::BoneClass SurfaceClasses::under(const surface::BlockVertex& vertex, uint32_t block, int stride) const {
-  return class_of_code_[code_under(vertex, block, stride)];
-}
-
-std::vector<uint8_t> SurfaceClasses::packed(std::span<const surface::BlockVertex> vertices, uint32_t block,
-                                            int stride) const {
-  if (density_.empty()) return {};
-  std::vector<uint8_t> bytes((vertices.size() + vertices_per_byte - 1) / vertices_per_byte);
-  for (size_t i = 0; i < vertices.size(); ++i)
-    bytes[i / vertices_per_byte] |= static_cast<uint8_t>(
-        static_cast<unsigned>(under(vertices[i], block, stride)) << (2 * (i % vertices_per_byte)));
+std::vector<uint8_t> SurfaceClasses::packed_classes(std::span<const uint8_t> codes) const {
+  std::vector<uint8_t> bytes((codes.size() + vertices_per_byte - 1) / vertices_per_byte);
+  for (size_t i = 0; i < codes.size(); ++i)
+    bytes[i / vertices_per_byte] |=
+        static_cast<uint8_t>(static_cast<unsigned>(class_of(codes[i])) << (2 * (i % vertices_per_byte)));
   return bytes;
 }
 
-std::vector<uint8_t> SurfaceClasses::density_levels(std::span<const surface::BlockVertex> vertices,
-                                                    uint32_t block, int stride) const {
+std::vector<uint8_t> SurfaceClasses::packed_densities(std::span<const uint8_t> codes) {
   std::vector<uint8_t> levels;
-  for (size_t i = 0; !density_.empty() && i < vertices.size(); ++i) {
-    const uint8_t code = code_under(vertices[i], block, stride);
-    const double level =
-        code == voxel::cartilage_code ? 0.0 : std::round(voxel::density_g_cc(code) / density_level_g_cc);
-    levels.push_back(static_cast<uint8_t>(std::min(level, max_density_level)));
+  for (const uint8_t code : codes) {
+    const double level = std::clamp(std::round(voxel::density_g_cc(code) / density_level_g_cc), 1.0, 15.0);
+    levels.push_back(code == voxel::cartilage_code ? uint8_t{0} : static_cast<uint8_t>(level));
   }
-  return levels;
+  return RemovedBone::packed(levels);
 }
 
 EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t tick, int stride,
@@ -110,13 +106,14 @@ EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t 
                             place.data());
   result.vertex_count = static_cast<uint32_t>(vertices.size());
   result.index_count = static_cast<uint32_t>(indices.size());
-  if (classes != nullptr) result.classes = classes->packed(vertices, mesh.block, stride);
+  std::vector<uint8_t> codes;
+  if (classes != nullptr) codes = classes->codes(vertices, mesh.block, stride);
+  if (!codes.empty()) result.classes = classes->packed_classes(codes);
   if (!removed.empty()) {
     std::vector<uint8_t> levels(count);
     meshopt_remapVertexBuffer(levels.data(), removed.data(), removed.size(), 1, place.data());
     result.removed = RemovedBone::packed(levels);
-    if (classes != nullptr)
-      result.densities = RemovedBone::packed(classes->density_levels(vertices, mesh.block, stride));
+    result.densities = SurfaceClasses::packed_densities(codes);
   }
   result.vertices = encoded(meshopt_encodeVertexBufferBound(vertices.size(), sizeof(BlockVertex)),
                             [&](unsigned char* to, size_t size) {

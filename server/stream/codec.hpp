@@ -18,23 +18,19 @@ class SurfaceClasses {
  public:
   explicit SurfaceClasses(const voxel::BoneModel& bone);
 
-  /// Of a bone with densities. Class of the voxel three quarters of a sample (`stride` voxels) inside the
-  /// surface at a vertex of `block` (as surface::BlockLayout numbers them). A place beside the grid has the
-  /// class of the grid's nearest voxel.
-  voxel::BoneClass under(const surface::BlockVertex& vertex, uint32_t block, int stride) const;
+  /// Density code of the voxel three quarters of a sample (`stride` voxels) inside the surface at each vertex
+  /// of `block` (as surface::BlockLayout numbers them). A place beside the grid has that of the grid's
+  /// nearest voxel. Empty where nothing is known.
+  std::vector<uint8_t> codes(std::span<const surface::BlockVertex> vertices, uint32_t block,
+                             int stride) const;
+  voxel::BoneClass class_of(uint8_t code) const { return class_of_code_[code]; }
 
-  /// The same of all vertices, as MeshBlock.classes of proto/stream.fbs: 2 bits each, the first in the
-  /// lowest; empty where nothing is known.
-  std::vector<uint8_t> packed(std::span<const surface::BlockVertex> vertices, uint32_t block,
-                              int stride) const;
-
-  /// Apparent density at the same places, as MeshBlock.densities, one level a vertex.
-  std::vector<uint8_t> density_levels(std::span<const surface::BlockVertex> vertices, uint32_t block,
-                                      int stride) const;
+  /// Of such codes, as MeshBlock.classes of proto/stream.fbs: 2 bits each, the first in the lowest.
+  std::vector<uint8_t> packed_classes(std::span<const uint8_t> codes) const;
+  /// And as MeshBlock.densities.
+  static std::vector<uint8_t> packed_densities(std::span<const uint8_t> codes);
 
  private:
-  uint8_t code_under(const surface::BlockVertex& vertex, uint32_t block, int stride) const;
-
   voxel::VoxelGrid grid_;
   voxel::SharedBytes density_;
   std::array<voxel::BoneClass, 256> class_of_code_;
@@ -50,8 +46,8 @@ struct EncodedBlock {
   int stride = 1;         ///< of the samples, in voxels; positions are in the same units at every stride
   uint32_t vertex_count = 0, index_count = 0;
   std::vector<std::byte> vertices, indices;
-  std::vector<uint8_t> classes;  ///< as SurfaceClasses::packed; empty where they are not known
-  std::vector<uint8_t> removed;  ///< as RemovedBone::packed; empty where nothing is gone
+  std::vector<uint8_t> classes;         ///< as MeshBlock.classes; empty where they are not known
+  std::vector<uint8_t> removed;         ///< as RemovedBone::packed; empty where nothing is gone
   std::vector<uint8_t> densities = {};  ///< as MeshBlock.densities; empty where removed is, or classes are
 
   bool empty() const { return index_count == 0; }

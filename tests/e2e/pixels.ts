@@ -46,6 +46,13 @@ export async function darkened(page: Page, now: string, before: string, contrast
   return a.filter((value, i) => ((b[i] ?? 0) + 0.05) / (value + 0.05) >= contrast).length;
 }
 
+/** Standard deviation of the luminances of a picture. */
+export async function luminanceSpread(page: Page, base64: string): Promise<number> {
+  const values = await luminances(page, base64);
+  const mean = values.reduce((sum, value) => sum + value, 0) / values.length;
+  return Math.sqrt(values.reduce((sum, value) => sum + (value - mean) ** 2, 0) / values.length);
+}
+
 export interface PictureFacts {
   /** Pixels in all. */
   pixels: number;

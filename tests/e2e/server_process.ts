@@ -42,7 +42,7 @@ export class ServerProcess {
   private child: ChildProcess | null = null;
   url = '';
 
-  private readonly dataFolder: string;
+  readonly dataFolder: string;
   /** What computes is not seen on the page, and to try all that there is takes seconds. */
   private readonly backend: 'auto' | 'cpu';
 

@@ -36,7 +36,7 @@ TEST(SurfaceClasses, TellWhatLiesUnderTheSurface) {
   for (const uint32_t block : {0u, 1u}) {
     const surface::BlockMesh mesh = surface::BlockExtractor(bone.grid).extract(bone.coverage.data(), block);
     ASSERT_FALSE(mesh.vertices.empty());
-    const std::vector<uint8_t> packed = classes.packed(mesh.vertices, block, 1);
+    const std::vector<uint8_t> packed = classes.packed_classes(classes.codes(mesh.vertices, block, 1));
     ASSERT_EQ(packed.size(), (mesh.vertices.size() + 3) / 4);
     for (size_t i = 0; i < mesh.vertices.size(); ++i) {
       const Vec3f at =
@@ -65,38 +65,54 @@ TEST(SurfaceClasses, FollowTheVerticesThroughTheCodec) {
                                          reinterpret_cast<const unsigned char*>(encoded.vertices.data()),
                                          encoded.vertices.size()),
               0);
-    EXPECT_EQ(encoded.classes, classes.packed(vertices, 1, stride));
+    const std::vector<uint8_t> codes = classes.codes(vertices, 1, stride);
+    EXPECT_EQ(encoded.classes, classes.packed_classes(codes));
     for (size_t i = 0; i < vertices.size(); ++i)
-      EXPECT_EQ(class_at(encoded.classes, i), static_cast<unsigned>(classes.under(vertices[i], 1, stride)));
+      EXPECT_EQ(class_at(encoded.classes, i), static_cast<unsigned>(classes.class_of(codes[i])));
   }
 }
 
 TEST(SurfaceClasses, TellDensityWhereBoneIsGone) {
+  voxel::BoneModel bone = half_cortical();
+  // A cyst, and enamel-like bone: both ends of what is told.
+  for (int v = 0; v < 32; ++v)
+    for (int w = 8; w < 24; ++w)
+      for (int u = 0; u < 16; ++u)
+        bone.density.writable()[bone.grid.index(u, v, w)] = voxel::density_code(u < 8 ? 0.02 : 2.4);
+  const SurfaceClasses classes(bone);
+  std::array<size_t, 16> counts{};
+  for (const int stride : {1, 2, 4})
+    for (const uint32_t number : {0u, 1u}) {
+      const surface::BlockMesh mesh =
+          surface::BlockExtractor(bone.grid, stride).extract(bone.coverage.data(), number);
+      const std::vector<uint8_t> gone(mesh.vertices.size(), 15);
+      const EncodedBlock encoded = encode(mesh, 1, 1, stride, &classes, gone);
+      const std::vector<surface::BlockVertex> vertices = decode(encoded).vertices;
+      ASSERT_EQ(encoded.densities.size(), (vertices.size() + 1) / 2);
+      const std::vector<uint8_t> codes = classes.codes(vertices, number, stride);
+      for (size_t i = 0; i < vertices.size(); ++i) {
+        const unsigned level = encoded.densities[i / 2] >> (4 * (i % 2)) & 15u;
+        ++counts[level];
+        // Steps of 0.125 g/cc: 0.4 is nearest to 3, 1.8 to 14, 2.4 more than can be told, 0.02 the least.
+        const std::map<int, unsigned> expected = {{2, 1}, {40, 3}, {180, 14}, {240, 15}, {255, 0}};
+        EXPECT_EQ(level, expected.at(codes[i]));
+      }
+    }
+  for (const size_t level : {0, 1, 3, 14, 15}) EXPECT_GT(counts[level], 0u) << level;
+}
+
+TEST(SurfaceClasses, DensityReachesViewers) {
   const voxel::BoneModel bone = half_cortical();
   const SurfaceClasses classes(bone);
   const surface::BlockMesh mesh = surface::BlockExtractor(bone.grid).extract(bone.coverage.data(), 1);
   const std::vector<uint8_t> gone(mesh.vertices.size(), 15);
-  const EncodedBlock encoded = encode(mesh, 1, 1, 1, &classes, gone);
-  const std::vector<surface::BlockVertex> vertices = decode(encoded).vertices;
-  ASSERT_EQ(encoded.densities.size(), (vertices.size() + 1) / 2);
-  std::array<size_t, 16> counts{};
-  for (size_t i = 0; i < vertices.size(); ++i) {
-    const unsigned level = encoded.densities[i / 2] >> (4 * (i % 2)) & 15u;
-    ++counts[level];
-    // 0.4 g/cc is nearest to 3 steps of 0.125, 1.8 to 14.
-    const BoneClass kind = classes.under(vertices[i], 1, 1);
-    EXPECT_EQ(level, kind == BoneClass::cancellous ? 3u : kind == BoneClass::cortical ? 14u : 0u);
-  }
-  EXPECT_GT(counts[3] + counts[14], 0u);
-  EXPECT_GT(counts[0], 0u);
-
-  const auto block = std::make_shared<const EncodedBlock>(encoded);
+  const auto block = std::make_shared<const EncodedBlock>(encode(mesh, 1, 1, 1, &classes, gone));
   const Message message = mesh_message(std::vector<SharedBlock>{block}, true);
   ASSERT_TRUE(verified(message->data(), message->size()));
   const auto* sent =
       wire::GetServerMessage(message->data())->body_as_MeshDelta()->blocks()->Get(0)->densities();
   ASSERT_NE(sent, nullptr);
-  EXPECT_EQ(std::vector<uint8_t>(sent->begin(), sent->end()), encoded.densities);
+  EXPECT_EQ(std::vector<uint8_t>(sent->begin(), sent->end()), block->densities);
 }
 
 TEST(SurfaceClasses, DensityIsLeftOutWhereNothingIsGoneOrKindsAreHidden) {

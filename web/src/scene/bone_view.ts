@@ -1,6 +1,6 @@
 import { Group, type Object3D, type Plane } from 'three';
 
-import type { Hello, MeshDelta, Pose } from '../wire/messages';
+import type { BlockSurface, Hello, MeshDelta, Pose } from '../wire/messages';
 import { lookOfBone } from './bone_material';
 import { BonePaint } from './bone_paint';
 import { BonePicture } from './bone_picture';
@@ -75,8 +75,15 @@ export class BoneView {
     const picture = this.incoming ?? this.shown;
     if (picture === null) return;
     for (const block of mesh.blocks) picture.apply(block, performance.now());
-    if (mesh.keyComplete) picture.whole();
+    if (mesh.keyComplete && mesh.simplerFollow !== true) picture.whole();
     if (mesh.keyComplete && this.incoming !== null) this.show(this.incoming);
+    this.settleAfter(settleEveryMs);
+  }
+
+  /** Surfaces of fewer triangles in place of a whole picture's. */
+  simplify(blocks: readonly BlockSurface[]): void {
+    for (const block of blocks) this.shown?.apply(block, performance.now());
+    this.shown?.whole();
     this.settleAfter(settleEveryMs);
   }
 

@@ -8,6 +8,9 @@ import {
   type Scene,
 } from 'three';
 
+/** Layer of what is solid: light does not pass. (1 and 2 are the eyes of a headset.) */
+export const solidLayer = 3;
+
 /** A light that goes with the viewer. */
 interface ViewersLight {
   colour: number;
@@ -51,8 +54,10 @@ export class OperatingLights {
     shadow.normalBias = shadowBiasMm;
     Object.assign(shadow.camera, shadowBox);
     shadow.camera.updateProjectionMatrix();
-    scene.add(new HemisphereLight(allAround.above, allAround.below, allAround.intensity));
-    scene.add(this.lamp, this.lamp.target, this.fill, this.fill.target);
+    const around = new HemisphereLight(allAround.above, allAround.below, allAround.intensity);
+    scene.add(around, this.lamp, this.lamp.target, this.fill, this.fill.target);
+    // Passes of both layers have the same lights: materials are looked up anew where those differ.
+    for (const light of [around, this.lamp, this.fill]) light.layers.enable(solidLayer);
   }
 
   /** What the shadows fall on lies around this place, world frame. */
@@ -80,9 +85,6 @@ export class OperatingLights {
       light.position.copy(light.target.position).addScaledVector(directionOf(of, right, up, back).normalize(), lampMm);
   }
 }
-
-/** Layer of what is solid: light does not pass. */
-export const solidLayer = 1;
 
 /** Throws shadows and is in those of others, wherever the lamp throws any; is solid. */
 export function shadowed<T extends Mesh>(mesh: T): T {

@@ -5,26 +5,27 @@ import { densityStepGCc } from '../wire/bone_marks';
 /** Defined while pores are drawn: a plain picture costs no more than it must. */
 export const poresDefine = 'BONE_PORES';
 
-/** Of bone without pores, g/cc: apparent density is this times the share of bone (Frich and others 1998 for the glenoid's). */
-export const solidBoneGCc = 1.8;
-/** Between the middles of pores, mm: of 0.2 to 0.8 mm that the structure of spongy bone measures. */
-export const poreSpacingMm = 0.8;
+/**
+ * Apparent density of bone without pores, g/cc, by which 11 to 45 % of bone (the glenoid's: Frich and others 1998) are 0.20
+ * to 0.81 g/cc.
+ */
+const solidBoneGCc = 1.8;
+/** Between the middles of pores, mm. Chosen by eye: large enough to be seen from where one reams. */
+const poreSpacingMm = 0.8;
 /** As all that was cut they are three times darker and more than bone that is whole. */
 export const poreColours = { wall: '#a2554a', marrow: '#752a30' };
+/** Of steel 0.3, of dry bone 0.7. */
 const wallRoughness = 0.45;
 const marrowRoughness = 0.2;
 /** More than spongy bone has: thicker walls are not told apart. */
 const greatestShare = 0.8;
 
 /**
- * How far from a wall's middle it ends, as the difference of the distances to the two nearest of points strewn one a cell
- * (Worley 1996), in cells. Fitted to the share of space that is nearer; within 0.01 up to a share of 0.7.
+ * How far from a wall's middle it ends, by the share of bone, both in GLSL and in TypeScript: as the difference of the
+ * distances to the two nearest of points strewn one a cell (Worley 1996), in cells. Fitted to the share of space that is
+ * nearer.
  */
-export function wallLimit(share: number): number {
-  const [first, second, third] = wallFit;
-  return share * (first + share * (second + share * third));
-}
-const wallFit = [0.2585, 0.05, 0.138] as const;
+export const wallLimitFormula = 'share * (0.2585 + share * (0.05 + share * 0.138))';
 
 export const poresInVertex = `
 #ifdef ${poresDefine}
@@ -70,11 +71,12 @@ float offWall(vec3 at) {
   return sqrt(second) - sqrt(first);
 }
 
-// Whether there is bone, 0 to 1; from afar its share.
+// Whether there is bone, 0 to 1; from afar its share. A pixel's size in cells.
 float wallAt(vec3 at, float pixel) {
   float share = clamp(vBoneShare, 0.0, ${greatestShare.toFixed(2)});
-  float limit = share * (${wallFit[0]} + share * (${wallFit[1]} + share * ${wallFit[2]}));
-  float wall = 1.0 - smoothstep(limit - 0.5 * pixel, limit + 0.5 * pixel, offWall(at));
+  float limit = ${wallLimitFormula};
+  // The difference of two distances changes by up to twice the way.
+  float wall = 1.0 - smoothstep(limit - pixel, limit + pixel, offWall(at));
   return mix(wall, share, smoothstep(0.3, 0.7, pixel));
 }
 #endif
@@ -82,7 +84,7 @@ float wallAt(vec3 at, float pixel) {
 /** After the colour of what was cut: needs cutShare, vSpongy and cutBone. */
 export const paintPores = `
 #ifdef ${poresDefine}
-float porePixel = length(fwidth(vInPores));
+float porePixel = max(length(fwidth(vInPores)), 1e-4);
 float poreShare = 0.0;
 float wall = 1.0;
 if (cutShare > 0.0 && vSpongy > 0.0 && vBoneShare > 0.0) {

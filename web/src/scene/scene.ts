@@ -16,7 +16,7 @@ import { type Beside, PlanFrame, type Ray } from '../practice/plan_frame';
 import type { SteeredView } from '../practice/pointer_hand';
 import type { ToolAction } from '../state/tool_action';
 import { plainView, type ViewChoices } from '../state/view_settings';
-import { type Hello, isTwoPlates, type MeshDelta, type Pose, type ToolMesh } from '../wire/messages';
+import { type BlockSurface, type Hello, isTwoPlates, type MeshDelta, type Pose, type ToolMesh } from '../wire/messages';
 import type { Surface } from '../wire/ply';
 import { AimView } from './aim_view';
 import { AmbientOcclusion } from './ambient_occlusion';
@@ -201,6 +201,11 @@ export class BoneScene implements SteeredView {
     this.invalidate();
   }
 
+  simplify(blocks: readonly BlockSurface[]): void {
+    this.bone.simplify(blocks);
+    this.invalidate();
+  }
+
   /** Another reamer from here on; drawn once its pose is known. */
   setTool(tool: ToolMesh): void {
     this.parts.forget();
@@ -316,7 +321,7 @@ export class BoneScene implements SteeredView {
     const look = this.inTheatre ? 'steel' : seenThrough ? 'throughBone' : 'glass';
     this.tool.setLook(look, this.quality.full.peek(), cuts.length === 0);
     this.toolMoves = this.tool.step(seconds);
-    this.occlusion.measure(fine, this.renderer, this.scene, camera, cuts);
+    this.occlusion.prepare(fine, this.renderer, this.scene, camera, cuts);
     if (seenThrough) this.drawSeenThrough(cuts, camera);
     else this.renderer.render(this.scene, camera);
     ++this.drawn;

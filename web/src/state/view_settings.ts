@@ -16,7 +16,7 @@ export const opacityLeast = 0.1;
 
 /**
  * From what costs least to draw: plain, the reamer is see-through; in full it is an instrument that turns, and the rest of
- * the scapula is there; fine has shadows, too.
+ * the scapula is there, and spongy bone that was cut has pores; fine has shadows and darker hollows, too.
  */
 export const pictureLevels = ['plain', 'full', 'fine'] as const;
 export type PictureLevel = (typeof pictureLevels)[number];

@@ -2,7 +2,7 @@ import { batch } from '@preact/signals';
 
 import { ApiError, type Api } from '../wire/api';
 import { Link, type LinkState } from '../wire/link';
-import type { Hello, MeshDelta, StreamMessage, Telemetry, ToolMesh } from '../wire/messages';
+import type { BlockSurface, Hello, MeshDelta, StreamMessage, Telemetry, ToolMesh } from '../wire/messages';
 import type { StreamSocket } from '../wire/stream_socket';
 import { appText } from '../text/app_text';
 import { messageOf, noAnswer } from '../wire/rest';
@@ -17,6 +17,8 @@ import type { PlaybackChange, Session } from '../wire/rest_types';
 export interface Picture {
   begin(hello: Hello): void;
   apply(mesh: MeshDelta): void;
+  /** Surfaces of fewer triangles for blocks that are shown. */
+  simplify(blocks: readonly BlockSurface[]): void;
   setTool(tool: ToolMesh): void;
 }
 
@@ -251,6 +253,7 @@ export class Watcher {
   }
 
   private onMessage(message: StreamMessage): void {
+    if (message.kind === 'simpler') return this.picture.simplify(message.blocks);
     batch(() => {
       this.store.lastMessageMs.value = Date.now();
       switch (message.kind) {

@@ -25,7 +25,7 @@ export const liveText = {
   boneOpacity: 'Bone',
   toolDrawing: 'Picture quality',
   toolDrawingHint:
-    'Medium shows a turning steel reamer, chips and the rest of the scapula. High adds shadows. Low needs the least computing power.',
+    'Medium shows a turning steel reamer, chips, pores of spongy bone and the rest of the scapula. High adds shadows and dark hollows. Low needs the least computing power.',
   toolDrawingNamed: { automatic: 'Automatic', fine: 'High', full: 'Medium', plain: 'Low' },
   toolDrawnNow: (level: string) => `Automatic (${level} now)`,
   opacityValue: (percent: string) => `${percent} % opaque`,

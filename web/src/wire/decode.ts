@@ -7,16 +7,17 @@ import { MeshDelta as WireMeshDelta } from './generated/ream/wire/mesh-delta';
 import { ServerMessage } from './generated/ream/wire/server-message';
 import { Telemetry as WireTelemetry } from './generated/ream/wire/telemetry';
 import { ToolChange } from './generated/ream/wire/tool-change';
-import type { Hello, MeshDelta, ScapulaPoints, StreamMessage, ToolMesh } from './messages';
+import type { BlockSurface, Hello, MeshDelta, ScapulaPoints, StreamMessage, ToolMesh } from './messages';
 import { pose, triple, type Triple } from './pose';
-import { simplifiedSurface } from './simplified_surface';
+import { SurfaceSimplifier } from './surface_simplifier';
 import { decodeTelemetry } from './telemetry';
 
 /** Decodes one connection's messages in order; the first must be the hello. Throws on anything else. */
 export class StreamDecoder {
   private voxelSpacingMm: Triple | null = null;
+  private simplifier: SurfaceSimplifier | null = null;
 
-  /** `simplifies`: whether surfaces come of fewer triangles (simplified_surface). */
+  /** `simplifies`: whether surfaces come of fewer triangles, of the first picture later by goOn(). */
   constructor(private readonly simplifies = false) {}
 
   decode(bytes: Uint8Array): StreamMessage {
@@ -25,12 +26,14 @@ export class StreamDecoder {
     if (type === Body.Hello) {
       const hello = decodeHello(requireTable(message.body(new WireHello()) as WireHello | null));
       this.voxelSpacingMm = hello.voxelSpacingMm;
+      this.simplifier = this.simplifies ? new SurfaceSimplifier(hello.voxelSpacingMm) : null;
       return { kind: 'hello', hello };
     }
     if (this.voxelSpacingMm === null) throw new Error('the stream did not begin with a hello');
     if (type === Body.MeshDelta) {
       const delta = requireTable(message.body(new WireMeshDelta()) as WireMeshDelta | null);
-      return { kind: 'mesh', mesh: this.simpler(decodeMesh(delta, this.voxelSpacingMm), this.voxelSpacingMm) };
+      const mesh = decodeMesh(delta, this.voxelSpacingMm);
+      return { kind: 'mesh', mesh: this.simplifier?.passOn(mesh) ?? mesh };
     }
     if (type === Body.Telemetry) {
       const telemetry = requireTable(message.body(new WireTelemetry()) as WireTelemetry | null);
@@ -42,9 +45,10 @@ export class StreamDecoder {
     throw new Error(`message of unknown type ${String(type)}`);
   }
 
-  private simpler(mesh: MeshDelta, voxelSpacingMm: Triple): MeshDelta {
-    if (!this.simplifies) return mesh;
-    return { ...mesh, blocks: mesh.blocks.map((block) => simplifiedSurface(block, voxelSpacingMm)) };
+  /** For about so long; what comes of it, once it is done. To be called again and again after `simplerFollow` until then. */
+  goOn(ms: number): StreamMessage | null {
+    const blocks = this.simplifier?.work(ms) ?? null;
+    return blocks === null ? null : { kind: 'simpler', blocks };
   }
 }
 
@@ -54,7 +58,9 @@ export function transferables(message: StreamMessage): ArrayBuffer[] {
     case 'hello':
       return [message.hello.tool.positionsMm.buffer, message.hello.tool.indices.buffer];
     case 'mesh':
-      return message.mesh.blocks.flatMap((b) => [b.positions.buffer, b.normals.buffer, b.indices.buffer]);
+      return buffersOf(message.mesh.blocks);
+    case 'simpler':
+      return buffersOf(message.blocks);
     case 'telemetry':
       return [
         message.telemetry.thrustN.buffer,
@@ -65,6 +71,9 @@ export function transferables(message: StreamMessage): ArrayBuffer[] {
       return [message.tool.positionsMm.buffer, message.tool.indices.buffer];
   }
 }
+
+const buffersOf = (blocks: readonly BlockSurface[]) =>
+  blocks.flatMap((b) => [b.positions.buffer, b.normals.buffer, b.indices.buffer]);
 
 function decodeHello(hello: WireHello): Hello {
   return {

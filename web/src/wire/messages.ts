@@ -76,11 +76,15 @@ export interface BlockSurface {
 export interface MeshDelta {
   blocks: BlockSurface[];
   keyComplete: boolean;
+  /** Surfaces of fewer triangles come soon for all that has come so far. */
+  simplerFollow?: boolean;
 }
 
 export type StreamMessage =
   | { kind: 'hello'; hello: Hello }
   | { kind: 'mesh'; mesh: MeshDelta }
+  /** Of no message of the server: takes the place of surfaces that it has sent, of the same revisions. */
+  | { kind: 'simpler'; blocks: BlockSurface[] }
   | { kind: 'telemetry'; telemetry: Telemetry }
   | { kind: 'tool'; tool: ToolMesh };
 

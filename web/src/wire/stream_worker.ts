@@ -1,11 +1,14 @@
 /** Worker: owns the WebSocket, decodes its messages off the page's thread and passes them on. */
 import { StreamDecoder, transferables } from './decode';
 import { meshDecoderReady } from './decode_block';
-import type { WorkerReport, WorkerRequest } from './messages';
+import type { StreamMessage, WorkerReport, WorkerRequest } from './messages';
 import { simplifierReady } from './simplified_surface';
 
 // The DOM's typing of `self` is a window's; a worker's postMessage takes the transfer list in second place.
 const page = self as unknown as { postMessage(report: WorkerReport, transfer: ArrayBuffer[]): void };
+
+/** So long work may keep what comes from being passed on, ms. */
+const sliceMs = 8;
 
 type OpenRequest = Extract<WorkerRequest, { kind: 'open' }>;
 
@@ -25,13 +28,24 @@ function open({ connection, url, simplifies }: OpenRequest): void {
   const decoder = new StreamDecoder(simplifies);
   const opened = new WebSocket(url);
   socket = opened;
+  const pass = (message: StreamMessage) =>
+    page.postMessage({ kind: 'message', connection, message }, transferables(message));
+  /** Between what comes meanwhile. */
+  const goOnLater = () =>
+    void setTimeout(() => {
+      if (socket !== opened) return;
+      const simpler = decoder.goOn(sliceMs);
+      if (simpler === null) goOnLater();
+      else pass(simpler);
+    });
   opened.binaryType = 'arraybuffer';
   opened.onmessage = (event: MessageEvent<ArrayBuffer>) => {
     try {
       const receivedMs = performance.timeOrigin + performance.now();
       const message = decoder.decode(new Uint8Array(event.data));
       if (message.kind === 'telemetry') message.telemetry.receivedMs = receivedMs;
-      page.postMessage({ kind: 'message', connection, message }, transferables(message));
+      pass(message);
+      if (message.kind === 'mesh' && message.mesh.simplerFollow === true) goOnLater();
     } catch (error) {
       drop();
       const reason = `unreadable message: ${error instanceof Error ? error.message : String(error)}`;

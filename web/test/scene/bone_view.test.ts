@@ -58,6 +58,19 @@ describe('BoneView', () => {
     view.dispose();
   });
 
+  it('waits for surfaces of fewer triangles that follow, and draws those together', () => {
+    const view = shownBone();
+    const meshes = () => view.group.children[0]?.children.length ?? NaN;
+    const blocks = Array.from({ length: 16 }, (_, i) => i);
+    view.apply({ ...delta(blocks, 2, true), simplerFollow: true });
+    vi.advanceTimersByTime(1000);
+    expect(meshes(), 'each by itself').toBeGreaterThanOrEqual(16);
+    view.simplify(delta(blocks, 2, false).blocks);
+    vi.advanceTimersByTime(1000);
+    expect(meshes()).toBe(4);
+    view.dispose();
+  });
+
   it('moves the whole bone by the displacement of the stream', () => {
     const view = shownBone();
     const rest = drawnAt(view, new Vector3(2048, 1024, 3072));

@@ -39,10 +39,13 @@ function luminance(css: string, rows: Rows): number {
 }
 
 describe.each(Object.entries(seenBy))('%s', (_, rows) => {
-  it.each(Object.entries({ ...cutBoneColours, ...poreColours }))('tell %s bone that was cut from bone that is whole', (_kind, cut) => {
-    const contrast = (luminance(wholeBoneColour, rows) + 0.05) / (luminance(cut, rows) + 0.05);
-    expect(contrast).toBeGreaterThanOrEqual(3);
-  });
+  it.each(Object.entries({ ...cutBoneColours, ...poreColours }))(
+    'tell %s bone that was cut from bone that is whole',
+    (_kind, cut) => {
+      const contrast = (luminance(wholeBoneColour, rows) + 0.05) / (luminance(cut, rows) + 0.05);
+      expect(contrast).toBeGreaterThanOrEqual(3);
+    },
+  );
 
   it.each(Object.entries({ ...cutBoneColours, ...poreColours }))(
     'tell lit %s bone that was cut from bone that is whole and lies in a shadow',

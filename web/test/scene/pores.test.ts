@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 
-import { wallLimit } from '../../src/scene/pores';
+import { wallLimitFormula } from '../../src/scene/pores';
 import { randomNumbers } from './random_surfaces';
 
 /** Differences of the distances to the two nearest of points strewn one a cell, at places drawn at random; ascending. */
@@ -12,17 +12,25 @@ function offWalls(count: number, random: () => number): number[] {
   return Array.from({ length: count }, () => offWall([at(), at(), at()], inCell)).sort((a, b) => a - b);
 }
 
+/** Of the points in the cell of a place and in those around it, which all of the nearest need not be in. */
 function offWall(at: readonly number[], inCell: (x: number, y: number, z: number) => number[]): number {
   const far: number[] = [];
   const [x = 0, y = 0, z = 0] = at.map(Math.floor);
-  for (let u = x - 2; u <= x + 2; ++u)
-    for (let v = y - 2; v <= y + 2; ++v)
-      for (let w = z - 2; w <= z + 2; ++w) {
+  for (let u = x - 1; u <= x + 1; ++u)
+    for (let v = y - 1; v <= y + 1; ++v)
+      for (let w = z - 1; w <= z + 1; ++w) {
         const point = inCell(u, v, w);
         far.push(Math.hypot(...[u, v, w].map((cell, axis) => cell + (point[axis] ?? 0) - (at[axis] ?? 0))));
       }
   const [first = 0, second = 0] = far.sort((a, b) => a - b);
   return second - first;
+}
+
+/** The formula's coefficients, from the innermost bracket outwards, as the shader computes it. */
+function wallLimit(share: number): number {
+  const form = /^share \* \(([\d.]+) \+ share \* \(([\d.]+) \+ share \* ([\d.]+)\)\)$/;
+  const [, first, second, third] = (form.exec(wallLimitFormula) ?? []).map(Number);
+  return share * ((first ?? NaN) + share * ((second ?? NaN) + share * (third ?? NaN)));
 }
 
 describe('Walls between pores', () => {

@@ -94,6 +94,7 @@ describe('Watcher', () => {
     const picture = {
       begin: (h: { sessionId: string }) => begun.push(h.sessionId),
       apply: () => undefined,
+      simplify: () => undefined,
       setTool: () => undefined,
     };
     watcher = new Watcher(store, api as unknown as Api, socket, picture);
@@ -297,7 +298,7 @@ describe('Watcher', () => {
       store,
       api as unknown as Api,
       socket,
-      { begin: () => undefined, apply: () => undefined, setTool: () => undefined },
+      { begin: () => undefined, apply: () => undefined, simplify: () => undefined, setTool: () => undefined },
       { makesSession: () => false },
     );
     api.prepared = false;

@@ -8,7 +8,7 @@ import { meshMessage, serverMessage } from '../../../tests/support/fake_stream/m
 import { StreamDecoder, transferables } from '../../src/wire/decode';
 import { meshDecoderReady } from '../../src/wire/decode_block';
 import { Body, Hello, Playback, SessionState, Telemetry } from '../../src/wire/generated/stream_generated';
-import type { StreamMessage } from '../../src/wire/messages';
+import type { BlockSurface, StreamMessage } from '../../src/wire/messages';
 import { simplifierReady } from '../../src/wire/simplified_surface';
 
 const golden = (name: string) =>
@@ -152,28 +152,61 @@ function flatBlock(keyComplete: boolean): Uint8Array {
   return meshMessage([{ block: 0, revision: 0, mesh }], 0, keyComplete);
 }
 
+const emptyMesh = { vertices: new Uint8Array(), vertexCount: 0, indices: new Uint32Array() };
+
 describe('StreamDecoder for drawing in software', () => {
-  const trianglesOf = (decoder: StreamDecoder, bytes: Uint8Array) => {
+  const passed = (decoder: StreamDecoder, bytes: Uint8Array) => {
     const decoded = decoder.decode(bytes);
     if (decoded.kind !== 'mesh') throw new Error('no mesh');
-    const buffers = transferables(decoded);
-    expect(new Set(buffers).size).toBe(buffers.length);
-    return (decoded.mesh.blocks[0]?.indices.length ?? 0) / 3;
+    // As it goes to another thread: what is kept must not go with it.
+    return structuredClone(decoded, { transfer: transferables(decoded) }).mesh;
   };
+  const triangles = (blocks: readonly BlockSurface[]) => (blocks[0]?.indices.length ?? 0) / 3;
   const all = 2 * 15 * 15;
-
-  it('simplifies a surface alike in the first picture and after it', () => {
-    const decoder = new StreamDecoder(true);
+  const begun = (simplifies: boolean) => {
+    const decoder = new StreamDecoder(simplifies);
     decoder.decode(golden('hello'));
-    const first = trianglesOf(decoder, flatBlock(true));
-    expect(first).toBeLessThan(all / 4);
-    expect(trianglesOf(decoder, flatBlock(false))).toBe(first);
+    return decoder;
+  };
+  const after = (decoder: StreamDecoder) => {
+    const message = decoder.goOn(1000);
+    if (message?.kind !== 'simpler') throw new Error('nothing came of it');
+    expect(new Set(transferables(message)).size).toBe(3 * message.blocks.length);
+    return message.blocks;
+  };
+
+  it('passes a first picture on at once, and simplifies it as what comes after it', () => {
+    const decoder = begun(true);
+    const first = passed(decoder, flatBlock(false));
+    expect(triangles(first.blocks)).toBe(all);
+    expect(first.simplerFollow).toBe(false);
+    expect(decoder.goOn(1000), 'the picture is not complete').toBeNull();
+    const complete = passed(decoder, flatBlock(true));
+    expect(triangles(complete.blocks)).toBe(all);
+    expect(complete.simplerFollow).toBe(true);
+    expect(decoder.goOn(0), 'no time').toBeNull();
+    const simpler = after(decoder);
+    expect(simpler).toHaveLength(1);
+    expect(triangles(simpler)).toBeLessThan(all / 4);
+    const later = passed(decoder, flatBlock(false));
+    expect(later.simplerFollow).toBeUndefined();
+    expect(later.blocks[0]?.indices).toEqual(simpler[0]?.indices);
+    expect(later.blocks[0]?.positions).toEqual(simpler[0]?.positions);
+  });
+
+  it('does not come back to a block that has come anew, or is empty now', () => {
+    const decoder = begun(true);
+    passed(decoder, flatBlock(true));
+    passed(decoder, meshMessage([{ block: 0, revision: 1, mesh: emptyMesh }], 0, false));
+    expect(after(decoder)).toEqual([]);
   });
 
   it('simplifies nothing elsewhere', () => {
-    const decoder = new StreamDecoder();
-    decoder.decode(golden('hello'));
-    expect(trianglesOf(decoder, flatBlock(false))).toBe(all);
+    const decoder = begun(false);
+    const mesh = passed(decoder, flatBlock(true));
+    expect(triangles(mesh.blocks)).toBe(all);
+    expect(mesh.simplerFollow).toBeUndefined();
+    expect(decoder.goOn(1000)).toBeNull();
   });
 });
 

@@ -4,7 +4,7 @@ import { drawsInSoftware } from '../../../../web/src/scene/software_drawing';
 import { StreamDecoder } from '../../../../web/src/wire/decode';
 import { meshDecoderReady } from '../../../../web/src/wire/decode_block';
 import type { BlockSurface, Hello, Pose } from '../../../../web/src/wire/messages';
-import { simplifierReady } from '../../../../web/src/wire/simplified_surface';
+import { simplifiedSurface, simplifierReady } from '../../../../web/src/wire/simplified_surface';
 
 /** The reamer as the page shows it, where the stream has it first. */
 export interface ReamerPicture {
@@ -29,8 +29,7 @@ const stride = 4;
 /** The whole bone of a stream's messages, each with its length (u32, little endian) before it, and the reamer. */
 export async function streamedPicture(stream: ArrayBuffer): Promise<{ bone: BonePicture; reamer: ReamerPicture }> {
   await Promise.all([meshDecoderReady, simplifierReady]);
-  // As the page draws it.
-  const decoder = new StreamDecoder(drawsInSoftware());
+  const decoder = new StreamDecoder();
   const newest = new Map<number, BlockSurface>();
   let hello: Hello | null = null;
   let pose: Pose | null = null;
@@ -41,8 +40,13 @@ export async function streamedPicture(stream: ArrayBuffer): Promise<{ bone: Bone
     if (message.kind === 'mesh') for (const block of message.mesh.blocks) newest.set(block.block, block);
   }
   if (hello === null || pose === null) throw new Error('a stream that does not tell where bone and reamer are');
+  // As the page draws it.
+  const { voxelSpacingMm } = hello;
+  const blocks = [...newest.values()].map((block) =>
+    drawsInSoftware() ? simplifiedSurface(block, voxelSpacingMm) : block,
+  );
   return {
-    bone: merged(hello, [...newest.values()]),
+    bone: merged(hello, blocks),
     reamer: { ...hello.tool, worldFromTool: pose },
   };
 }

@@ -78,25 +78,25 @@ function Progress({ step }: { step: number }) {
 
 /** Said aloud when it changes. What is said first comes a moment after its place, or it would not be heard. */
 function Words({ store, tutorial }: Pick<Parts, 'store' | 'tutorial'>) {
-  const [begun, setBegun] = useState(false);
-  useEffect(() => setBegun(true), []);
+  const [placed, setPlaced] = useState(false);
+  useEffect(() => setPlaced(true), []);
   const step = tutorial.step.value;
   const astray = tutorial.astray.value;
   const before = stepNames[step - 1];
   return (
     <div class="tutorial-words" aria-live="polite">
-      {begun && before !== undefined && (
+      {placed && before !== undefined && (
         <p class="tutorial-done" data-testid="tutorial-done">
           <span aria-hidden="true">✓</span> {tutorialText.done[before]}
         </p>
       )}
-      {begun && astray !== null && (
+      {placed && astray !== null && (
         <p class="tutorial-astray" data-testid="tutorial-astray" data-astray={astray}>
           <span aria-hidden="true">{isLost(astray) ? '⬣' : '▲'}</span>{' '}
           <Named text={tutorialText.strayed[astray](tutorial.input.value)} />
         </p>
       )}
-      {begun && !isLost(astray) && <NextThing store={store} tutorial={tutorial} />}
+      {placed && !isLost(astray) && <NextThing store={store} tutorial={tutorial} />}
     </div>
   );
 }
@@ -106,7 +106,7 @@ function NextThing({ store, tutorial }: Pick<Parts, 'store' | 'tutorial'>) {
   const planned = fixed(store.hello.value?.plannedDepthMm, 2);
   const depth = fixed(store.reading.value.telemetry?.depthMm, 2);
   // What is done before the picture is there would have to be done again.
-  if (!tutorial.begun.value) return <p class="tutorial-why">{appText.loading}</p>;
+  if (!tutorial.begun.value) return tutorial.astray.value === null && <p class="tutorial-why">{appText.loading}</p>;
   const todo =
     name === null ? tutorialText.closing(depth, planned) : tutorialText.todo[name](planned)[tutorial.input.value];
   return (

@@ -2,7 +2,7 @@ import { batch, signal } from '@preact/signals';
 
 import { ApiError, type Api } from '../../wire/api';
 import { Link, type LinkState } from '../../wire/link';
-import type { Hello, MeshDelta, StreamMessage, Telemetry, ToolMesh } from '../../wire/messages';
+import type { BlockSurface, Hello, MeshDelta, StreamMessage, Telemetry, ToolMesh } from '../../wire/messages';
 import { messageOf } from '../../wire/rest';
 import type { StreamSocket } from '../../wire/stream_socket';
 import type { Player } from '../player';
@@ -14,6 +14,8 @@ import type { PlaybackChange, Replay } from '../../wire/rest_types';
 export interface Picture {
   begin(hello: Hello): void;
   apply(mesh: MeshDelta): void;
+  /** Surfaces of fewer triangles for blocks that are shown. */
+  simplify(blocks: readonly BlockSurface[]): void;
   setTool(tool: ToolMesh): void;
 }
 
@@ -127,6 +129,7 @@ export class ReplayPlayer implements Player {
   }
 
   private onMessage(message: StreamMessage): void {
+    if (message.kind === 'simpler') return this.picture.simplify(message.blocks);
     const { store } = this;
     batch(() => {
       store.lastMessageMs.value = Date.now();

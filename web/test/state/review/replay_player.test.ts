@@ -42,7 +42,12 @@ function begin() {
   const api = new FakeReplays();
   const socket = new FakeSocket();
   const begun: string[] = [];
-  const picture = { begin: () => begun.push('begin'), apply: () => undefined, setTool: () => undefined };
+  const picture = {
+    begin: () => begun.push('begin'),
+    apply: () => undefined,
+    simplify: () => undefined,
+    setTool: () => undefined,
+  };
   const player = new ReplayPlayer('abcd', store, api, socket, picture);
   player.start();
   return { store, api, socket, player, begun };

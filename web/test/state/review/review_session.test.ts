@@ -55,7 +55,12 @@ function begin(change: Partial<ReviewSources['review']> = {}) {
     },
     mayReadTrace: true,
   };
-  const picture = { begin: () => undefined, apply: () => undefined, setTool: () => undefined };
+  const picture = {
+    begin: () => undefined,
+    apply: () => undefined,
+    simplify: () => undefined,
+    setTool: () => undefined,
+  };
   const session = new ReviewSession('abcd', sources, picture);
   session.start();
   return { session, socket, changes, requests, sources };

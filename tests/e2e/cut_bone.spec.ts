@@ -1,0 +1,69 @@
+// A reamer far below the subchondral plate has cut spongy bone: how that looks, by the quality of the picture.
+import { writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+
+import { expect, type Page, test } from '@playwright/test';
+
+import { luminanceSpread } from './pixels';
+import { drawn, serverForEachTest } from './server_for_each_test';
+import { settled } from './settled';
+
+const here = serverForEachTest();
+const session = 'deepbone';
+const script = {
+  device: 'poses',
+  duration_s: 10,
+  poses: [
+    { t_s: 0, position_mm: [0, 0, -1] },
+    { t_s: 8, position_mm: [0, 0, 9] },
+    { t_s: 9, position_mm: [0, 0, 0] },
+    { t_s: 10, position_mm: [0, 0, -20] },
+  ],
+};
+
+/** The server finds what lies there when it starts. */
+async function reamDeeply(): Promise<void> {
+  const { server } = here;
+  await server.kill();
+  const file = join(server.dataFolder, 'deep.json');
+  writeFileSync(file, JSON.stringify(script));
+  const out = join(server.dataFolder, 'sessions', session);
+  server.command('simulate', '--case', 'demo', '--script', file, '--tool', 'sphere 14', '--out', out);
+  await server.start();
+}
+
+async function choose(page: Page, quality: 'plain' | 'full' | 'fine'): Promise<void> {
+  await page.getByTestId('sections').click();
+  await page.getByTestId('tool-drawing').selectOption(quality);
+  await page.getByTestId('sections').click();
+  await settled(page);
+  await drawn(page);
+}
+
+test('spongy bone that was cut shows its pores but in the plainest picture', async ({ page }, info) => {
+  await reamDeeply();
+  await page.goto(here.server.url);
+  await page.getByTestId('sessions').locator('summary').click();
+  await page.getByTestId(`replay-${session}`).click();
+  await page.waitForFunction((of) => window.__ream.replayOf === of && window.__ream.positionTicks !== null, session);
+  await page.getByTestId('seek').fill('9.9');
+  await page.waitForFunction(() => window.__ream.positionTicks === 9900);
+  await page.getByTestId('show-reamer').uncheck();
+  await page.getByTestId('view-axis').click();
+  const box = await page.getByTestId('bone-canvas').boundingBox();
+  if (box === null) throw new Error('no picture');
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x, y);
+  for (let i = 0; i < 6; ++i) await page.mouse.wheel(0, -300);
+
+  /** Of the pocket's floor beside the pilot hole. */
+  const spread = async (quality: 'plain' | 'full' | 'fine') => {
+    await choose(page, quality);
+    await page.screenshot({ path: info.outputPath(`${quality}.png`) });
+    const floor = await page.screenshot({ clip: { x: x - 150, y: y - 140, width: 80, height: 80 } });
+    return luminanceSpread(page, floor.toString('base64'));
+  };
+  const plain = await spread('plain');
+  for (const quality of ['full', 'fine'] as const) expect(await spread(quality), quality).toBeGreaterThan(2 * plain);
+  expect(await spread('plain')).toBeCloseTo(plain, 3);
+});
