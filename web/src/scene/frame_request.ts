@@ -10,6 +10,7 @@ export async function allDrawn(): Promise<void> {
 export class FrameRequest {
   private timer: ReturnType<typeof setTimeout> | undefined;
   private frame: number | null = null;
+  private held: ReturnType<typeof setTimeout> | undefined;
   private disposed = false;
   private resolvers: (() => void)[] = [];
 
@@ -28,7 +29,23 @@ export class FrameRequest {
     clearTimeout(this.timer);
     if (this.frame !== null || this.disposed) return;
     pending.add(this);
-    this.waitFor(this.frames);
+    if (this.held === undefined) this.waitFor(this.frames);
+  }
+
+  /** Draws nothing before release(), or for so long; what is asked for meanwhile, or was before, is drawn then. */
+  hold(ms: number): void {
+    if (this.disposed) return;
+    clearTimeout(this.held);
+    this.held = setTimeout(() => this.release(), ms);
+    if (this.frame !== null) cancelAnimationFrame(this.frame);
+    this.frame = null;
+  }
+
+  release(): void {
+    if (this.held === undefined) return;
+    clearTimeout(this.held);
+    this.held = undefined;
+    if (this.isWaiting) this.request();
   }
 
   /** Waits for `ms` without another call before it asks for a frame. */
@@ -48,6 +65,7 @@ export class FrameRequest {
 
   /** Nothing is drawn any more. */
   dispose(): void {
+    clearTimeout(this.held);
     this.cancel();
     this.disposed = true;
   }

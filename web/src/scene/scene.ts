@@ -38,6 +38,10 @@ import { ToolView } from './tool_view';
 
 /** Beyond this the eye gains little and a tablet loses much. */
 const pixelRatioMax = 2;
+/** Where triangles are dear, a picture that comes is not drawn as it grows unless it takes so long, ms; */
+const growsUnseenMs = 500;
+/** and once it is whole, not again before it is of fewer triangles, unless that takes so long, ms. */
+const simplerWithinMs = 1000;
 /** A picture that was not drawn for a while does not make up for it in one step. */
 const longestStepS = 0.1;
 
@@ -73,6 +77,8 @@ export class BoneScene implements SteeredView {
   private toolPose: Pose | null = null;
   private framedCase: string | null = null;
   private readonly drawing = new FrameRequest(() => this.draw());
+  /** The whole bone is there, and is going to be of fewer triangles. */
+  private simplerFollow = false;
   private drawn = 0;
   private drawnAtMs = 0;
   /** Hears of every picture that was drawn. */
@@ -178,6 +184,8 @@ export class BoneScene implements SteeredView {
   /** A new connection's picture begins. The view stays as the viewer left it unless the case is another. */
   begin(hello: Hello): void {
     this.bone.begin(hello);
+    this.simplerFollow = false;
+    if (this.inSoftware) this.drawing.hold(growsUnseenMs);
     this.parts.forget();
     this.setTool(hello.tool);
     this.orbit.setPlan(hello);
@@ -198,11 +206,15 @@ export class BoneScene implements SteeredView {
 
   apply(mesh: MeshDelta): void {
     this.bone.apply(mesh);
+    if (mesh.keyComplete) this.drawing.release();
+    if (mesh.simplerFollow === true) this.simplerFollow = true;
     this.invalidate();
   }
 
   simplify(blocks: readonly BlockSurface[]): void {
     this.bone.simplify(blocks);
+    this.simplerFollow = false;
+    this.drawing.release();
     this.invalidate();
   }
 
@@ -327,6 +339,8 @@ export class BoneScene implements SteeredView {
     ++this.drawn;
     this.onDrawn();
     if ((moving || this.toolMoves) && !worn) this.invalidate();
+    if (this.simplerFollow) this.drawing.hold(simplerWithinMs);
+    this.simplerFollow = false;
   }
 
   /** Through the nearest bone the reamer is seen, but none of the bone behind. */

@@ -30,14 +30,15 @@ function open({ connection, url, simplifies }: OpenRequest): void {
   socket = opened;
   const pass = (message: StreamMessage) =>
     page.postMessage({ kind: 'message', connection, message }, transferables(message));
-  /** Between what comes meanwhile. */
-  const goOnLater = () =>
-    void setTimeout(() => {
-      if (socket !== opened) return;
-      const simpler = decoder.goOn(sliceMs);
-      if (simpler === null) goOnLater();
-      else pass(simpler);
-    });
+  // Between what comes meanwhile. (Timers that follow each other wait for some milliseconds each.)
+  const turn = new MessageChannel();
+  const goOnLater = () => turn.port2.postMessage(null);
+  turn.port1.onmessage = () => {
+    if (socket !== opened) return;
+    const simpler = decoder.goOn(sliceMs);
+    if (simpler === null) goOnLater();
+    else pass(simpler);
+  };
   opened.binaryType = 'arraybuffer';
   opened.onmessage = (event: MessageEvent<ArrayBuffer>) => {
     try {
