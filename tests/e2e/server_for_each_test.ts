@@ -92,4 +92,7 @@ export const readout = (page: Page): Promise<DebugReadout> => page.evaluate(() =
 export const untilLive = (page: Page) => page.waitForFunction(() => window.__ream.live, null, { timeout: 60_000 });
 /** Waits until what was last changed has been drawn. */
 export const drawn = (page: Page) =>
-  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  page.evaluate(async () => {
+    await window.__ream.allDrawn();
+    await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+  });

@@ -30,6 +30,7 @@ async function unsettled(page: Page): Promise<string[]> {
       // What is drawn may ask for another drawing.
       await window.__ream.allDrawn();
       await nextFrame();
+      if (window.__ream.simplerDue) reasons.add('its bone is of fewer triangles');
       if (document.fonts.status !== 'loaded') reasons.add('its fonts are loaded');
       for (const animation of document.getAnimations())
         if (animation.playState === 'running') reasons.add('something moves');

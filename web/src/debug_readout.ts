@@ -14,6 +14,8 @@ export interface DebugReadout {
   allDrawn: typeof allDrawn;
   blocks: number;
   triangles: number;
+  /** The whole bone is there, and is soon of fewer triangles. */
+  simplerDue: boolean;
   link: string;
   live: boolean;
   sessionId: string | null;
@@ -63,6 +65,7 @@ export function publishDebugReadout({ store, practice, scene, sound, latency }: 
       allDrawn,
       blocks: scene.blockCount,
       triangles: scene.triangleCount,
+      simplerDue: scene.simplerDue,
       link: store.link.value.kind,
       live: store.live.value,
       sessionId: store.sessionId.value,

@@ -40,7 +40,8 @@ import { ToolView } from './tool_view';
 const pixelRatioMax = 2;
 /** Where triangles are dear, a picture that comes is not drawn as it grows unless it takes so long, ms; */
 const growsUnseenMs = 500;
-/** and once it is whole, not again before it is of fewer triangles, unless that takes so long, ms. */
+/** and once it is whole, seldom before it is of fewer triangles, unless that takes so long, ms. */
+const seldomEveryMs = 250;
 const simplerWithinMs = 1000;
 /** A picture that was not drawn for a while does not make up for it in one step. */
 const longestStepS = 0.1;
@@ -76,9 +77,11 @@ export class BoneScene implements SteeredView {
   private plan: PlanFrame | null = null;
   private toolPose: Pose | null = null;
   private framedCase: string | null = null;
-  private readonly drawing = new FrameRequest(() => this.draw());
-  /** The whole bone is there, and is going to be of fewer triangles. */
-  private simplerFollow = false;
+  private readonly drawing = new FrameRequest(() => {
+    if (this.canvas.isConnected) this.draw();
+  });
+  /** Clock of the page. */
+  private simplerDueUntilMs = 0;
   private drawn = 0;
   private drawnAtMs = 0;
   /** Hears of every picture that was drawn. */
@@ -124,6 +127,10 @@ export class BoneScene implements SteeredView {
   get waitsToDraw(): boolean {
     return this.drawing.isWaiting;
   }
+  /** The whole bone is there, and is soon of fewer triangles. */
+  get simplerDue(): boolean {
+    return performance.now() < this.simplerDueUntilMs;
+  }
   get blockCount(): number {
     return this.bone.blockCount;
   }
@@ -140,6 +147,7 @@ export class BoneScene implements SteeredView {
   }
 
   dispose(): void {
+    this.drawing.dispose();
     this.headset.dispose();
     this.bone.dispose();
     this.surroundings.dispose();
@@ -184,7 +192,7 @@ export class BoneScene implements SteeredView {
   /** A new connection's picture begins. The view stays as the viewer left it unless the case is another. */
   begin(hello: Hello): void {
     this.bone.begin(hello);
-    this.simplerFollow = false;
+    this.simplerDueUntilMs = 0;
     if (this.inSoftware) this.drawing.hold(growsUnseenMs);
     this.parts.forget();
     this.setTool(hello.tool);
@@ -207,13 +215,13 @@ export class BoneScene implements SteeredView {
   apply(mesh: MeshDelta): void {
     this.bone.apply(mesh);
     if (mesh.keyComplete) this.drawing.release();
-    if (mesh.simplerFollow === true) this.simplerFollow = true;
+    if (mesh.simplerFollow === true) this.simplerDueUntilMs = performance.now() + simplerWithinMs;
     this.invalidate();
   }
 
   simplify(blocks: readonly BlockSurface[]): void {
     this.bone.simplify(blocks);
-    this.simplerFollow = false;
+    this.simplerDueUntilMs = 0;
     this.drawing.release();
     this.invalidate();
   }
@@ -339,8 +347,7 @@ export class BoneScene implements SteeredView {
     ++this.drawn;
     this.onDrawn();
     if ((moving || this.toolMoves) && !worn) this.invalidate();
-    if (this.simplerFollow) this.drawing.hold(simplerWithinMs);
-    this.simplerFollow = false;
+    if (this.simplerDue) this.drawing.hold(seldomEveryMs);
   }
 
   /** Through the nearest bone the reamer is seen, but none of the bone behind. */

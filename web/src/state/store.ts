@@ -29,7 +29,7 @@ export class Store {
   readonly pictureComplete = signal(false);
   /** Whether a stream was lost since the page was opened. */
   readonly metWithLoss = signal(false);
-  /** Whether any bone was ever drawn. */
+  /** Whether any bone has ever come. */
   readonly hasPicture = signal(false);
   /** Wall-clock time of the last message, ms. */
   readonly lastMessageMs = signal<number | null>(null);

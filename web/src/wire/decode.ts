@@ -45,7 +45,12 @@ export class StreamDecoder {
     throw new Error(`message of unknown type ${String(type)}`);
   }
 
-  /** For about so long; what comes of it, once it is done. To be called again and again after `simplerFollow` until then. */
+  /** Whether goOn() is to be called again. */
+  get works(): boolean {
+    return this.simplifier?.works ?? false;
+  }
+
+  /** After `simplerFollow`: works for about so long; what has come of it, once that is all. */
   goOn(ms: number): StreamMessage | null {
     const blocks = this.simplifier?.work(ms) ?? null;
     return blocks === null ? null : { kind: 'simpler', blocks };

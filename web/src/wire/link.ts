@@ -101,6 +101,8 @@ export class Link {
   }
 
   private receive(message: StreamMessage): void {
+    // No sign of life of the server.
+    if (message.kind === 'simpler') return this.callbacks.onMessage(message);
     if (message.kind === 'hello') {
       if (message.hello.protocolRevision !== protocolRevision) {
         this.stop();

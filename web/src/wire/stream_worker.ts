@@ -16,6 +16,16 @@ let socket: WebSocket | null = null;
 /** The newest request, while it is to be opened or is open. */
 let wanted: OpenRequest | null = null;
 
+/** What is done in the next turn, after what has come meanwhile. (Timers that follow each other wait some milliseconds each.) */
+let nextTurn: (() => void) | null = null;
+const turns = new MessageChannel();
+turns.port1.onmessage = () => nextTurn?.();
+
+function betweenMessages(work: () => void): void {
+  nextTurn = work;
+  turns.port2.postMessage(null);
+}
+
 function drop(): void {
   if (socket === null) return;
   socket.onmessage = null;
@@ -30,14 +40,20 @@ function open({ connection, url, simplifies }: OpenRequest): void {
   socket = opened;
   const pass = (message: StreamMessage) =>
     page.postMessage({ kind: 'message', connection, message }, transferables(message));
-  // Between what comes meanwhile. (Timers that follow each other wait for some milliseconds each.)
-  const turn = new MessageChannel();
-  const goOnLater = () => turn.port2.postMessage(null);
-  turn.port1.onmessage = () => {
+  const fail = (error: unknown) => {
+    drop();
+    const reason = `unreadable message: ${error instanceof Error ? error.message : String(error)}`;
+    page.postMessage({ kind: 'closed', connection, reason }, []);
+  };
+  const goOn = () => {
     if (socket !== opened) return;
-    const simpler = decoder.goOn(sliceMs);
-    if (simpler === null) goOnLater();
-    else pass(simpler);
+    try {
+      const simpler = decoder.goOn(sliceMs);
+      if (simpler !== null) pass(simpler);
+      else if (decoder.works) betweenMessages(goOn);
+    } catch (error) {
+      fail(error);
+    }
   };
   opened.binaryType = 'arraybuffer';
   opened.onmessage = (event: MessageEvent<ArrayBuffer>) => {
@@ -46,11 +62,9 @@ function open({ connection, url, simplifies }: OpenRequest): void {
       const message = decoder.decode(new Uint8Array(event.data));
       if (message.kind === 'telemetry') message.telemetry.receivedMs = receivedMs;
       pass(message);
-      if (message.kind === 'mesh' && message.mesh.simplerFollow === true) goOnLater();
+      if (message.kind === 'mesh' && message.mesh.simplerFollow === true) betweenMessages(goOn);
     } catch (error) {
-      drop();
-      const reason = `unreadable message: ${error instanceof Error ? error.message : String(error)}`;
-      page.postMessage({ kind: 'closed', connection, reason }, []);
+      fail(error);
     }
   };
   opened.onclose = (event) => {

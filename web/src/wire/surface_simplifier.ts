@@ -25,14 +25,23 @@ export class SurfaceSimplifier {
     return { ...mesh, simplerFollow: mesh.keyComplete && this.waiting.size > 0 };
   }
 
-  /** Goes on with the first picture for about so long, once that is complete; all of it when it is done, else null. */
+  /** Whether there is more for work() to do. */
+  get works(): boolean {
+    return !this.first && this.waiting.size > 0;
+  }
+
+  /**
+   * Goes on with the first picture for about so long, once that is complete; when it is done, all surfaces of it that are of
+   * fewer triangles now, else null.
+   */
   work(ms: number): BlockSurface[] | null {
     if (this.first) return null;
     const until = performance.now() + ms;
     for (const [block, surface] of this.waiting) {
       if (performance.now() >= until) return null;
       this.waiting.delete(block);
-      this.simplified.set(block, this.simplify(surface));
+      const simpler = this.simplify(surface);
+      if (simpler !== surface) this.simplified.set(block, simpler);
     }
     const all = [...this.simplified.values()];
     this.simplified.clear();

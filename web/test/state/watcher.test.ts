@@ -84,17 +84,18 @@ describe('Watcher', () => {
   let store: Store;
   let watcher: Watcher;
   const begun: string[] = [];
+  let simplified = 0;
 
   beforeEach(() => {
     vi.useFakeTimers();
     api = new FakeApi();
     socket = new FakeSocket();
     store = new Store();
-    begun.length = 0;
+    begun.length = simplified = 0;
     const picture = {
       begin: (h: { sessionId: string }) => begun.push(h.sessionId),
       apply: () => undefined,
-      simplify: () => undefined,
+      simplify: () => void ++simplified,
       setTool: () => undefined,
     };
     watcher = new Watcher(store, api as unknown as Api, socket, picture);
@@ -117,6 +118,17 @@ describe('Watcher', () => {
     expect(api.list.map((s) => [s.id, s.state])).toEqual([['s1', 'running']]);
     expect(socket.opened).toHaveLength(1);
     expect(store.active.value).toBe(true);
+  });
+
+  it('hands simpler surfaces to the picture, and takes them for no news', async () => {
+    watcher.start();
+    await settle();
+    serve('s1', '1');
+    const newsMs = store.lastMessageMs.value;
+    await vi.advanceTimersByTimeAsync(500);
+    socket.handlers?.onMessage({ kind: 'simpler', blocks: [] });
+    expect(simplified).toBe(1);
+    expect(store.lastMessageMs.value).toBe(newsMs);
   });
 
   it('makes a session for a hand in the browser, starts it and watches it, whatever was watched before', async () => {

@@ -2,7 +2,7 @@
 // 0.18, so nothing here was written by the code that reads it.
 import { Builder } from 'flatbuffers';
 import { readFileSync } from 'node:fs';
-import { beforeAll, describe, expect, it } from 'vitest';
+import { beforeAll, describe, expect, it, vi } from 'vitest';
 
 import { meshMessage, serverMessage } from '../../../tests/support/fake_stream/messages';
 import { StreamDecoder, transferables } from '../../src/wire/decode';
@@ -138,7 +138,7 @@ function cyclicTriangles(indices: ArrayLike<number>): number[][] {
 }
 
 /** A delta of one flat block, a corner for every two voxels. */
-function flatBlock(keyComplete: boolean): Uint8Array {
+function flatBlock(keyComplete: boolean, of: { block?: number; revision?: number } = {}): Uint8Array {
   const row = 16;
   const vertices = new Uint8Array(8 * row * row);
   const places = new DataView(vertices.buffer);
@@ -149,7 +149,7 @@ function flatBlock(keyComplete: boolean): Uint8Array {
     if (x + 1 < row && y + 1 < row) indices.push(i, i + 1, i + row + 1, i, i + row + 1, i + row);
   }
   const mesh = { vertices, vertexCount: row * row, indices: Uint32Array.from(indices) };
-  return meshMessage([{ block: 0, revision: 0, mesh }], 0, keyComplete);
+  return meshMessage([{ block: 0, revision: 0, ...of, mesh }], 0, keyComplete);
 }
 
 const emptyMesh = { vertices: new Uint8Array(), vertexCount: 0, indices: new Uint32Array() };
@@ -181,6 +181,7 @@ describe('StreamDecoder for drawing in software', () => {
     expect(triangles(first.blocks)).toBe(all);
     expect(first.simplerFollow).toBe(false);
     expect(decoder.goOn(1000), 'the picture is not complete').toBeNull();
+    expect(decoder.works).toBe(false);
     const complete = passed(decoder, flatBlock(true));
     expect(triangles(complete.blocks)).toBe(all);
     expect(complete.simplerFollow).toBe(true);
@@ -194,12 +195,27 @@ describe('StreamDecoder for drawing in software', () => {
     expect(later.blocks[0]?.positions).toEqual(simpler[0]?.positions);
   });
 
-  it('does not come back to a block that has come anew, or is empty now', () => {
-    const decoder = begun(true);
-    passed(decoder, flatBlock(true));
-    passed(decoder, meshMessage([{ block: 0, revision: 1, mesh: emptyMesh }], 0, false));
-    expect(after(decoder)).toEqual([]);
-  });
+  it.each(['simplified already', 'still to be simplified'] as const)(
+    'does not come back to a block, %s, that has come anew or is empty now',
+    (which) => {
+      // Half a millisecond between any two looks at the clock.
+      let nowMs = 0;
+      const clock = vi.spyOn(performance, 'now').mockImplementation(() => (nowMs += 0.5));
+      const decoder = begun(true);
+      for (const block of [0, 1, 2, 3]) passed(decoder, flatBlock(block === 3, { block }));
+      expect(decoder.works).toBe(true);
+      expect(decoder.goOn(1.2), 'time for two').toBeNull();
+      expect(decoder.works).toBe(true);
+      const [emptied, renewed] = which === 'simplified already' ? [0, 1] : [2, 3];
+      passed(decoder, meshMessage([{ block: emptied, revision: 1, mesh: emptyMesh }], 0, false));
+      const anew = passed(decoder, flatBlock(false, { block: renewed, revision: 1 }));
+      expect(triangles(anew.blocks)).toBeLessThan(all / 4);
+      const left = after(decoder);
+      expect(left.map(({ block }) => block).sort()).toEqual([0, 1, 2, 3].filter((b) => b !== emptied && b !== renewed));
+      expect(decoder.works).toBe(false);
+      clock.mockRestore();
+    },
+  );
 
   it('simplifies nothing elsewhere', () => {
     const decoder = begun(false);

@@ -91,6 +91,10 @@ describe('Link', () => {
     expect(kind()).toBe('live');
     await vi.advanceTimersByTimeAsync(1);
     expect(kind()).toBe('silent');
+    // The page's own work is no sign of life.
+    socket.handlers?.onMessage({ kind: 'simpler', blocks: [] });
+    expect(messages.at(-1)?.kind).toBe('simpler');
+    expect(kind()).toBe('silent');
     socket.handlers?.onMessage(telemetry());
     expect(kind()).toBe('live');
     await vi.advanceTimersByTimeAsync(lostAfterSilenceMs);

@@ -45,7 +45,7 @@ function begin() {
   const picture = {
     begin: () => begun.push('begin'),
     apply: () => undefined,
-    simplify: () => undefined,
+    simplify: () => begun.push('simplify'),
     setTool: () => undefined,
   };
   const player = new ReplayPlayer('abcd', store, api, socket, picture);
@@ -69,6 +69,11 @@ describe('player of a recording', () => {
     expect(store.upToDate.value).toBe(true);
     expect(store.live.value).toBe(false);
     expect(store.playback.value?.positionTicks).toBe(1500);
+    const newsMs = store.lastMessageMs.value;
+    await vi.advanceTimersByTimeAsync(500);
+    socket.handlers?.onMessage({ kind: 'simpler', blocks: [] });
+    expect(begun).toEqual(['begin', 'simplify']);
+    expect(store.lastMessageMs.value).toBe(newsMs);
   });
 
   it('says that what is shown is of before when the stream is lost, and finds the same replay again', async () => {
