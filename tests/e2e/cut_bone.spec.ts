@@ -4,9 +4,10 @@ import { join } from 'node:path';
 
 import { expect, type Page, test } from '@playwright/test';
 
+import { expectKeptLook } from './kept_pictures';
 import { luminanceSpread } from './pixels';
 import { drawn, serverForEachTest } from './server_for_each_test';
-import { settled } from './settled';
+import { settled, stillPicture } from './settled';
 
 const here = serverForEachTest();
 const session = 'deepbone';
@@ -40,7 +41,9 @@ async function choose(page: Page, quality: 'plain' | 'full' | 'fine'): Promise<v
   await drawn(page);
 }
 
-test('spongy bone that was cut shows its pores but in the plainest picture', async ({ page }, info) => {
+test('spongy bone that was cut shows its pores but in the plainest picture, and all look as they did', async ({
+  page,
+}, info) => {
   await reamDeeply();
   await page.goto(here.server.url);
   await page.getByTestId('sessions').locator('summary').click();
@@ -66,4 +69,13 @@ test('spongy bone that was cut shows its pores but in the plainest picture', asy
   const plain = await spread('plain');
   for (const quality of ['full', 'fine'] as const) expect(await spread(quality), quality).toBeGreaterThan(2 * plain);
   expect(await spread('plain')).toBeCloseTo(plain, 3);
+
+  await page.getByTestId('view-plan').click();
+  for (const quality of ['plain', 'full', 'fine'] as const) {
+    await choose(page, quality);
+    for (const colorScheme of ['light', 'dark'] as const) {
+      await page.emulateMedia({ colorScheme });
+      await expectKeptLook(page, `cut-bone-${quality}-${colorScheme}`, await stillPicture(page));
+    }
+  }
 });

@@ -1,9 +1,12 @@
 // The page against a running server, through Chromium: bone before anything runs, the demo, and a server that dies and
 // comes back.
+import { gzipSync } from 'node:zlib';
+
 import { expect, type Page, test } from '@playwright/test';
 
 import { compare, darkened, picture } from './pixels';
 import { drawn, readout, serverForEachTest, untilLive } from './server_for_each_test';
+import { settled } from './settled';
 
 const here = serverForEachTest();
 
@@ -99,4 +102,26 @@ test('a second viewer joins a running session and sees the same', { tag: '@full'
   const [a, b] = [await readout(page), await readout(second)];
   expect(b.sessionId).toBe(a.sessionId);
   expect(b.blocks).toBe(a.blocks);
+});
+
+test('is a program of at most 300 kB, packed', async ({ page }) => {
+  const packed = new Map<string, Promise<number>>();
+  page.on('response', (response) => {
+    const name = /assets\/([^/]+\.(?:js|css))$/.exec(response.url())?.[1];
+    if (name !== undefined)
+      packed.set(
+        name,
+        response.body().then((body) => gzipSync(body, { level: 9 }).length),
+      );
+  });
+  await page.goto(here.server.url);
+  await untilLive(page);
+  await settled(page);
+  const sizes = await Promise.all([...packed].map(async ([name, size]) => ({ name, bytes: await size })));
+  const names = sizes.map(({ name }) => name).join(' ');
+  expect(names).toContain('stream_worker');
+  // Only where there is no graphics processor.
+  expect(names).toContain('surface_simplifier');
+  const loaded = sizes.filter(({ name }) => !name.startsWith('surface_simplifier'));
+  expect(loaded.reduce((sum, { bytes }) => sum + bytes, 0)).toBeLessThan(300_000);
 });

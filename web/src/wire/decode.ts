@@ -9,7 +9,7 @@ import { Telemetry as WireTelemetry } from './generated/ream/wire/telemetry';
 import { ToolChange } from './generated/ream/wire/tool-change';
 import type { BlockSurface, Hello, MeshDelta, ScapulaPoints, StreamMessage, ToolMesh } from './messages';
 import { pose, triple, type Triple } from './pose';
-import { SurfaceSimplifier } from './surface_simplifier';
+import type { SurfaceSimplifier } from './surface_simplifier';
 import { decodeTelemetry } from './telemetry';
 
 /** Decodes one connection's messages in order; the first must be the hello. Throws on anything else. */
@@ -17,8 +17,8 @@ export class StreamDecoder {
   private voxelSpacingMm: Triple | null = null;
   private simplifier: SurfaceSimplifier | null = null;
 
-  /** `simplifies`: whether surfaces come of fewer triangles, of the first picture later by goOn(). */
-  constructor(private readonly simplifies = false) {}
+  /** `Simplifier`: surfaces come of fewer triangles, of the first picture later by goOn(); null: as they are. */
+  constructor(private readonly Simplifier: typeof SurfaceSimplifier | null = null) {}
 
   decode(bytes: Uint8Array): StreamMessage {
     const message = ServerMessage.getRootAsServerMessage(new ByteBuffer(bytes));
@@ -26,7 +26,7 @@ export class StreamDecoder {
     if (type === Body.Hello) {
       const hello = decodeHello(requireTable(message.body(new WireHello()) as WireHello | null));
       this.voxelSpacingMm = hello.voxelSpacingMm;
-      this.simplifier = this.simplifies ? new SurfaceSimplifier(hello.voxelSpacingMm) : null;
+      this.simplifier = this.Simplifier === null ? null : new this.Simplifier(hello.voxelSpacingMm);
       return { kind: 'hello', hello };
     }
     if (this.voxelSpacingMm === null) throw new Error('the stream did not begin with a hello');

@@ -2,7 +2,7 @@
 import { StreamDecoder, transferables } from './decode';
 import { meshDecoderReady } from './decode_block';
 import type { StreamMessage, WorkerReport, WorkerRequest } from './messages';
-import { simplifierReady } from './simplified_surface';
+import type { SurfaceSimplifier } from './surface_simplifier';
 
 // The DOM's typing of `self` is a window's; a worker's postMessage takes the transfer list in second place.
 const page = self as unknown as { postMessage(report: WorkerReport, transfer: ArrayBuffer[]): void };
@@ -34,8 +34,8 @@ function drop(): void {
   socket = null;
 }
 
-function open({ connection, url, simplifies }: OpenRequest): void {
-  const decoder = new StreamDecoder(simplifies);
+function open({ connection, url }: OpenRequest, Simplifier: typeof SurfaceSimplifier | null): void {
+  const decoder = new StreamDecoder(Simplifier);
   const opened = new WebSocket(url);
   socket = opened;
   const pass = (message: StreamMessage) =>
@@ -73,12 +73,19 @@ function open({ connection, url, simplifies }: OpenRequest): void {
   };
 }
 
+/** Only where it is wanted: it is a third of this worker. */
+async function loadSimplifier(): Promise<typeof SurfaceSimplifier> {
+  const { simplifierReady, SurfaceSimplifier } = await import('./surface_simplifier');
+  await simplifierReady;
+  return SurfaceSimplifier;
+}
+
 async function openWhenReady(request: OpenRequest): Promise<void> {
   const { connection } = request;
   try {
     await meshDecoderReady;
-    if (request.simplifies) await simplifierReady;
-    if (wanted === request) open(request);
+    const Simplifier = request.simplifies ? await loadSimplifier() : null;
+    if (wanted === request) open(request, Simplifier);
   } catch (error) {
     const reason = `this browser cannot read the stream: ${error instanceof Error ? error.message : String(error)}`;
     if (wanted === request) page.postMessage({ kind: 'closed', connection, reason }, []);

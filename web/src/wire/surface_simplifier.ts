@@ -4,6 +4,8 @@ import type { BlockSurface, MeshDelta } from './messages';
 import type { Triple } from './pose';
 import { simplifiedSurface } from './simplified_surface';
 
+export { simplifierReady } from './simplified_surface';
+
 /** Of one connection. */
 export class SurfaceSimplifier {
   private first = true;

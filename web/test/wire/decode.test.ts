@@ -9,7 +9,7 @@ import { StreamDecoder, transferables } from '../../src/wire/decode';
 import { meshDecoderReady } from '../../src/wire/decode_block';
 import { Body, Hello, Playback, SessionState, Telemetry } from '../../src/wire/generated/stream_generated';
 import type { BlockSurface, StreamMessage } from '../../src/wire/messages';
-import { simplifierReady } from '../../src/wire/simplified_surface';
+import { simplifierReady, SurfaceSimplifier } from '../../src/wire/surface_simplifier';
 
 const golden = (name: string) =>
   new Uint8Array(readFileSync(new URL(`../../../proto/golden/${name}.bin`, import.meta.url)));
@@ -164,7 +164,7 @@ describe('StreamDecoder for drawing in software', () => {
   const triangles = (blocks: readonly BlockSurface[]) => (blocks[0]?.indices.length ?? 0) / 3;
   const all = 2 * 15 * 15;
   const begun = (simplifies: boolean) => {
-    const decoder = new StreamDecoder(simplifies);
+    const decoder = new StreamDecoder(simplifies ? SurfaceSimplifier : null);
     decoder.decode(golden('hello'));
     return decoder;
   };
