@@ -91,8 +91,10 @@ export async function logIn(page: Page, name: string, password = passwordOf(name
 export const readout = (page: Page): Promise<DebugReadout> => page.evaluate(() => window.__ream);
 export const untilLive = (page: Page) => page.waitForFunction(() => window.__ream.live, null, { timeout: 60_000 });
 /** Waits until what was last changed has been drawn. */
-export const drawn = (page: Page) =>
-  page.evaluate(async () => {
+export async function drawn(page: Page): Promise<void> {
+  await page.waitForFunction(() => !window.__ream.simplerDue);
+  await page.evaluate(async () => {
     await window.__ream.allDrawn();
     await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
   });
+}

@@ -22,6 +22,8 @@ import { surgeonsEye } from './surgeon_eye';
 import { bladesGeometry, ringGeometry } from './retractors';
 import { coverGeometries, woundGeometry } from './wound_shape';
 
+/** Half of what is seen in theatre: the wound with its edges. */
+export const theatreViewMm = 54;
 const steelColour = new Color(0xc3ccd0);
 
 /** How much a part shines; steel mirrors the room. */

@@ -26,13 +26,13 @@ import { OrbitCamera, type ViewName } from './orbit_camera';
 import { PictureQuality } from './picture_quality';
 import { watchContext } from './context_watch';
 import { planeThroughAxis, sectionPlanes } from './cut_planes';
-import type { OperativeField } from './operative_field';
+import { OperativeField, theatreViewMm } from './operative_field';
 import { FrameRequest } from './frame_request';
 import { Headset, type Standpoint } from './headset';
 import { OperatingLights } from './lights';
 import type { Eye } from './shared_eye';
 import { drawsInSoftware } from './software_drawing';
-import { SurgeonCamera, theatreViewMm } from './surgeon_camera';
+import { SurgeonCamera } from './surgeon_camera';
 import { SurroundingsView } from './surroundings_view';
 import { ToolView } from './tool_view';
 
@@ -42,7 +42,7 @@ const pixelRatioMax = 2;
 const growsUnseenMs = 500;
 /** and once it is whole, seldom before it is of fewer triangles, unless that takes so long, ms. */
 const seldomEveryMs = 250;
-const simplerWithinMs = 1000;
+const simplerWithinMs = 5000;
 /** A picture that was not drawn for a while does not make up for it in one step. */
 const longestStepS = 0.1;
 
@@ -59,9 +59,7 @@ export class BoneScene implements SteeredView {
   private readonly scene = new Scene();
   private readonly bone = new BoneView(() => this.invalidate());
   private readonly surroundings = new SurroundingsView();
-  /** Loaded when theatre is first entered: few need it. Null until then. */
-  private field: OperativeField | null = null;
-  private fieldComes = false;
+  private readonly field = new OperativeField();
   private readonly tool = new ToolView(window.matchMedia('(prefers-reduced-motion: reduce)'));
   private toolMoves = false;
   private readonly parts = new MovingParts();
@@ -76,8 +74,6 @@ export class BoneScene implements SteeredView {
   private readonly depthOnly = new MeshBasicMaterial({ colorWrite: false });
   private choices: ViewChoices = plainView;
   private inTheatre = false;
-  /** What is shown is bone of a shoulder. */
-  private isShoulder = false;
   private plan: PlanFrame | null = null;
   private toolPose: Pose | null = null;
   private framedCase: string | null = null;
@@ -117,7 +113,7 @@ export class BoneScene implements SteeredView {
       () => this.draw(),
       () => this.resize(),
     );
-    this.extras.add(this.surroundings.group);
+    this.extras.add(this.surroundings.group, this.field.group);
     this.scene.add(this.bone.group, this.tool.group, this.aim.group, this.extras, this.headset.room);
     // After the renderer's own listeners, which make what is drawn with anew.
     this.lost = watchContext(this.canvas, () => this.resize()).lost;
@@ -156,7 +152,7 @@ export class BoneScene implements SteeredView {
     this.bone.dispose();
     this.surroundings.dispose();
     this.occlusion.dispose();
-    this.field?.dispose();
+    this.field.dispose();
     this.tool.dispose();
     this.renderer.dispose();
     this.renderer.forceContextLoss();
@@ -205,8 +201,7 @@ export class BoneScene implements SteeredView {
     this.surgeon.setPlan(this.plan);
     this.surroundings.begin(hello);
     this.lights.setCentre(this.plan.entry);
-    this.isShoulder = !isTwoPlates(hello);
-    this.field?.setPlan(this.fieldPlan);
+    this.field.setPlan(isTwoPlates(hello) ? null : this.plan);
     if (this.framedCase !== hello.caseId) {
       this.framedCase = hello.caseId;
       this.orbit.look('plan');
@@ -342,8 +337,7 @@ export class BoneScene implements SteeredView {
     this.bone.paint.setPores(this.quality.full.peek());
     this.bone.setLook(seenThrough ? this.choices.opacity : 1, cuts);
     this.surroundings.setLook(seenThrough, cuts);
-    if (this.inTheatre && this.field === null) void this.loadField();
-    this.field?.setShown(this.inTheatre, this.quality.full.peek());
+    this.field.setShown(this.inTheatre, this.quality.full.peek());
     const look = this.inTheatre ? 'steel' : seenThrough ? 'throughBone' : 'glass';
     this.tool.setLook(look, this.quality.full.peek(), cuts.length === 0);
     this.toolMoves = this.tool.step(seconds);
@@ -354,25 +348,6 @@ export class BoneScene implements SteeredView {
     this.onDrawn();
     if ((moving || this.toolMoves) && !worn) this.invalidate();
     if (this.simplerDue) this.drawing.hold(seldomEveryMs);
-  }
-
-  private get fieldPlan(): PlanFrame | null {
-    return this.isShoulder ? this.plan : null;
-  }
-
-  private async loadField(): Promise<void> {
-    if (this.fieldComes) return;
-    this.fieldComes = true;
-    try {
-      const { OperativeField } = await import('./operative_field');
-      this.field = new OperativeField();
-      this.field.setPlan(this.fieldPlan);
-      this.extras.add(this.field.group);
-      this.invalidate();
-    } catch {
-      // The next picture asks for it again.
-      this.fieldComes = false;
-    }
   }
 
   /** Through the nearest bone the reamer is seen, but none of the bone behind. */

@@ -4,9 +4,6 @@ import type { PlanFrame } from '../practice/plan_frame';
 import { superior, type OrbitCamera } from './orbit_camera';
 import { arrived, type EyePose, gone, surgeonsEye } from './surgeon_eye';
 
-/** Half of what is seen in theatre: the wound with its edges (operative_field). */
-export const theatreViewMm = 54;
-
 /** After this time it has gone two thirds of its way. */
 const glideS = 0.22;
 const nearEnoughMm = 0.1;

@@ -19,7 +19,11 @@ let wanted: OpenRequest | null = null;
 /** What is done in the next turn, after what has come meanwhile. (Timers that follow each other wait some milliseconds each.) */
 let nextTurn: (() => void) | null = null;
 const turns = new MessageChannel();
-turns.port1.onmessage = () => nextTurn?.();
+turns.port1.onmessage = () => {
+  const work = nextTurn;
+  nextTurn = null;
+  work?.();
+};
 
 function betweenMessages(work: () => void): void {
   nextTurn = work;
@@ -51,8 +55,9 @@ function open({ connection, url }: OpenRequest, Simplifier: typeof SurfaceSimpli
       const simpler = decoder.goOn(sliceMs);
       if (simpler !== null) pass(simpler);
       else if (decoder.works) betweenMessages(goOn);
-    } catch (error) {
-      fail(error);
+    } catch {
+      // It stays as it is.
+      pass({ kind: 'simpler', blocks: [] });
     }
   };
   opened.binaryType = 'arraybuffer';
@@ -73,11 +78,15 @@ function open({ connection, url }: OpenRequest, Simplifier: typeof SurfaceSimpli
   };
 }
 
-/** Only where it is wanted: it is a third of this worker. */
-async function loadSimplifier(): Promise<typeof SurfaceSimplifier> {
-  const { simplifierReady, SurfaceSimplifier } = await import('./surface_simplifier');
-  await simplifierReady;
-  return SurfaceSimplifier;
+/** Only where it is wanted, as it is larger than this worker; null where it cannot be had: the bone is seen all the same. */
+async function loadSimplifier(): Promise<typeof SurfaceSimplifier | null> {
+  try {
+    const { simplifierReady, SurfaceSimplifier } = await import('./surface_simplifier');
+    await simplifierReady;
+    return SurfaceSimplifier;
+  } catch {
+    return null;
+  }
 }
 
 async function openWhenReady(request: OpenRequest): Promise<void> {

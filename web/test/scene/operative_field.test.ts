@@ -2,8 +2,7 @@ import { DoubleSide, type Material, Mesh, MeshBasicMaterial, Raycaster, Vector3 
 import { describe, expect, it } from 'vitest';
 
 import { PlanFrame } from '../../src/practice/plan_frame';
-import { fieldParts, OperativeField, restFromField } from '../../src/scene/operative_field';
-import { theatreViewMm } from '../../src/scene/surgeon_camera';
+import { fieldParts, OperativeField, restFromField, theatreViewMm } from '../../src/scene/operative_field';
 import { surgeonsEye } from '../../src/scene/surgeon_eye';
 import type { FieldPoint } from '../../src/scene/wound_shape';
 

@@ -2,7 +2,7 @@
 // 0.18, so nothing here was written by the code that reads it.
 import { Builder } from 'flatbuffers';
 import { readFileSync } from 'node:fs';
-import { beforeAll, describe, expect, it, vi } from 'vitest';
+import { afterEach, beforeAll, describe, expect, it, vi } from 'vitest';
 
 import { meshMessage, serverMessage } from '../../../tests/support/fake_stream/messages';
 import { StreamDecoder, transferables } from '../../src/wire/decode';
@@ -23,6 +23,7 @@ function decoded<K extends StreamMessage['kind']>(name: string, kind: K): Extrac
 }
 
 beforeAll(() => Promise.all([meshDecoderReady, simplifierReady]));
+afterEach(() => vi.restoreAllMocks());
 
 describe('StreamDecoder', () => {
   it('reads the hello', () => {
@@ -200,7 +201,7 @@ describe('StreamDecoder for drawing in software', () => {
     (which) => {
       // Half a millisecond between any two looks at the clock.
       let nowMs = 0;
-      const clock = vi.spyOn(performance, 'now').mockImplementation(() => (nowMs += 0.5));
+      vi.spyOn(performance, 'now').mockImplementation(() => (nowMs += 0.5));
       const decoder = begun(true);
       for (const block of [0, 1, 2, 3]) passed(decoder, flatBlock(block === 3, { block }));
       expect(decoder.works).toBe(true);
@@ -213,9 +214,16 @@ describe('StreamDecoder for drawing in software', () => {
       const left = after(decoder);
       expect(left.map(({ block }) => block).sort()).toEqual([0, 1, 2, 3].filter((b) => b !== emptied && b !== renewed));
       expect(decoder.works).toBe(false);
-      clock.mockRestore();
     },
   );
+
+  it('sends nothing again that stays as it is', () => {
+    const decoder = begun(true);
+    // Three triangles, and bone is gone at one corner.
+    expect(decoder.decode(golden('mesh_delta'))).toMatchObject({ mesh: { keyComplete: true, simplerFollow: true } });
+    expect(decoder.works).toBe(true);
+    expect(after(decoder)).toEqual([]);
+  });
 
   it('simplifies nothing elsewhere', () => {
     const decoder = begun(false);
