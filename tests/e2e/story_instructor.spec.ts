@@ -8,6 +8,7 @@ import { createFromTable } from './course_users';
 import { practise } from './ream_a_moment';
 import { logIn, readout, serverForEachTest, untilLive } from './server_for_each_test';
 import { passwordOf } from './server_process';
+import { storyWindows } from './story_windows';
 
 const here = serverForEachTest([], { emptyFolder: true });
 test.setTimeout(240_000);
@@ -20,13 +21,10 @@ async function addUser(page: Page, name: string, displayName: string): Promise<v
   await page.getByRole('button', { name: 'Add', exact: true }).click();
 }
 
-for (const [width, height] of [
-  [1280, 800],
-  [390, 844],
-] as const)
+for (const { width, height, tag } of storyWindows)
   test(
     `an instructor gives a first course, from an empty server to a report, at ${width} px`,
-    { tag: width < 600 ? ['@full'] : [] },
+    { tag },
     async ({ page, browser }, info) => {
       const look = (name: string, of = page) => of.screenshot({ path: info.outputPath(`${name}.png`) });
       await page.setViewportSize({ width, height });

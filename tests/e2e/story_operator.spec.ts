@@ -8,6 +8,7 @@ import { blockOfPaper, linesOfPaper } from './paper_lines';
 import { practise } from './ream_a_moment';
 import { logIn } from './server_for_each_test';
 import { passwordOf } from './server_process';
+import { storyWindows } from './story_windows';
 
 const paper = 'docs/administrator.md';
 const line = linesOfPaper(paper);
@@ -27,13 +28,10 @@ async function pointsOf(page: Page, session: string): Promise<string> {
   return (await points.textContent()) ?? '';
 }
 
-for (const [width, height] of [
-  [1280, 720],
-  [390, 844],
-] as const)
+for (const { width, height, tag } of storyWindows)
   test(
     `an operator sets a server up, and another machine takes over from it, at ${width} px`,
-    { tag: width < 600 ? ['@full'] : [] },
+    { tag },
     async ({ page, browser }, info) => {
       const look = (name: string, of = page) => of.screenshot({ path: info.outputPath(`${name}.png`) });
       await page.setViewportSize({ width, height });

@@ -19,8 +19,9 @@ import { solidLayer } from './lights';
 const reachMm = 5;
 /** Distances are drawn at this part of the picture's size. */
 const depthScale = 0.5;
-/** How much light what is near takes, and what is left of the lamps' and of all light at the least. Chosen by eye. */
+/** How much light what is near takes. Chosen by eye. */
 const strength = 0.11;
+/** What is left of the lamps' light at the least. Chosen by eye. */
 const leastOfLamps = 0.75;
 /** Parts of the reach: nearer than this a surface is as even as it is drawn. */
 const evenWithin = 0.02;

@@ -1,4 +1,4 @@
-import { Color, Matrix4, type MeshStandardMaterial, Quaternion, Vector3 } from 'three';
+import { Color, Matrix4, type MeshStandardMaterial } from 'three';
 
 import type { Pose, ToolMesh } from '../wire/messages';
 import { boneMaterial, defineIn } from './bone_material';
@@ -21,6 +21,7 @@ import {
   poresVertexAssignment,
   wetPores,
 } from './pores';
+import { poseMatrix } from './pose_matrix';
 
 /** What the kinds of bone are painted with, apart for every kind of colour vision; CSS colours. */
 export const kindColours = { cortical: wholeBoneColour, cancellous: '#d9822b', cartilage: '#5aa2d6' };
@@ -138,14 +139,14 @@ export class BonePaint {
 
   setToolPose(pose: Pose | null): void {
     this.posed = pose !== null;
-    if (pose !== null) putInverse(pose, this.toolFromWorld.value);
+    if (pose !== null) this.toolFromWorld.value.copy(poseMatrix(pose)).invert();
     this.refresh();
   }
 
   /** How far the bone has moved from where the hello has it: its pores move with it. Null: not at all. */
   setBonePose(worldFromBoneRest: Pose | null): void {
     if (worldFromBoneRest === null) this.boneFromWorld.value.identity();
-    else putInverse(worldFromBoneRest, this.boneFromWorld.value);
+    else this.boneFromWorld.value.copy(poseMatrix(worldFromBoneRest)).invert();
   }
 
   /** Whether the reamer presses on bone now. */
@@ -172,8 +173,4 @@ export class BonePaint {
   private refresh(): void {
     this.contactShown.value = this.wanted && this.posed && this.touching;
   }
-}
-
-function putInverse({ rotationXyzw, translationMm }: Pose, into: Matrix4): void {
-  into.compose(new Vector3(...translationMm), new Quaternion(...rotationXyzw), new Vector3(1, 1, 1)).invert();
 }

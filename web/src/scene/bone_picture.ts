@@ -6,8 +6,6 @@ import {
   InterleavedBufferAttribute,
   type Material,
   Mesh,
-  Quaternion,
-  Vector3,
 } from 'three';
 
 import type { BlockSurface, Hello } from '../wire/messages';
@@ -15,6 +13,7 @@ import { BlockLayout } from './block_layout';
 import { marksAttribute } from './cut_bone';
 import { RegionMesh } from './region_mesh';
 import { shadowed } from './lights';
+import { poseMatrix } from './pose_matrix';
 
 /** What did not change for so long has come to rest. */
 const settlesAfterMs = 1500;
@@ -47,11 +46,7 @@ export class BonePicture {
   ) {
     this.layout = new BlockLayout(hello);
     this.group.matrixAutoUpdate = false;
-    this.group.matrix.compose(
-      new Vector3(...hello.worldFromGrid.translationMm),
-      new Quaternion(...hello.worldFromGrid.rotationXyzw),
-      new Vector3(1, 1, 1),
-    );
+    this.group.matrix.copy(poseMatrix(hello.worldFromGrid));
   }
 
   get blockCount(): number {

@@ -1,5 +1,5 @@
 import { effect, signal } from '@preact/signals';
-import { Matrix4, Quaternion, Vector3 } from 'three';
+import { Matrix4, Vector3 } from 'three';
 
 import { meshSection } from '../ct/mesh_section';
 import { type PlaneName, planeNames, type SlicePlane, slicePlanes } from '../ct/orientation';
@@ -10,9 +10,10 @@ import { windowPresets } from '../ct/window_level';
 import type { Store } from '../state/store';
 import { CaseApi } from '../wire/case_api';
 import type { CaseCt } from '../wire/rest_types';
-import type { Hello, Pose, Triple } from '../wire/messages';
+import type { Hello, Triple } from '../wire/messages';
 import { FrameRequest } from './frame_request';
 import { SlicePicture } from './slice_picture';
+import { poseMatrix } from './pose_matrix';
 
 /** Half of what a slice shows around the planned entry. */
 const fieldMm = 36;
@@ -179,13 +180,10 @@ export class LiveSlices {
 function toolInBone(store: Store): Matrix4 | null {
   const telemetry = store.telemetry.peek();
   if (telemetry?.worldFromTool === undefined || telemetry.worldFromTool === null) return null;
-  const worldFromTool = matrixOf(telemetry.worldFromTool);
+  const worldFromTool = poseMatrix(telemetry.worldFromTool);
   const moved = telemetry.worldFromBoneRest;
-  return moved === null ? worldFromTool : matrixOf(moved).invert().multiply(worldFromTool);
+  return moved === null ? worldFromTool : poseMatrix(moved).invert().multiply(worldFromTool);
 }
-
-const matrixOf = ({ translationMm, rotationXyzw }: Pose) =>
-  new Matrix4().compose(new Vector3(...translationMm), new Quaternion(...rotationXyzw), new Vector3(1, 1, 1));
 
 /** Through the reamer's tip, or through the planned entry while the reamer is away. */
 function placeOf(hello: Hello, boneFromTool: Matrix4 | null): [number, number, number] {

@@ -1,4 +1,4 @@
-import { Box3, Group, Matrix4, Mesh, type Plane, Quaternion, Vector3 } from 'three';
+import { Box3, Group, Mesh, type Plane, Vector3 } from 'three';
 
 import { PlanFrame } from '../practice/plan_frame';
 import type { Hello } from '../wire/messages';
@@ -6,6 +6,7 @@ import type { Surface } from '../wire/ply';
 import { boneMaterial, lookOfBone } from './bone_material';
 import { shadowed } from './lights';
 import { surfaceGeometry } from './surface_geometry';
+import { poseMatrix } from './pose_matrix';
 
 /**
  * What a reamer on the planned axis may come to is described by the streamed bone alone: as wide as this about the axis and
@@ -62,10 +63,7 @@ type GridAndPlan = Pick<Hello, 'axisEntryMm' | 'axisDirection' | 'gridDims' | 'v
 /** Triangles that do not lie with all corners in the streamed bone's box where a reamer on the planned axis may come. */
 export function beyondReach({ positions, indices }: Surface, of: GridAndPlan): Uint32Array<ArrayBuffer> {
   const { entry, axis } = new PlanFrame(of);
-  const { translationMm, rotationXyzw } = of.worldFromGrid;
-  const gridFromWorld = new Matrix4()
-    .compose(new Vector3(...translationMm), new Quaternion(...rotationXyzw), new Vector3(1, 1, 1))
-    .invert();
+  const gridFromWorld = poseMatrix(of.worldFromGrid).invert();
   const box = new Box3(new Vector3(), new Vector3(...of.gridDims).multiply(new Vector3(...of.voxelSpacingMm)));
   const [at, from] = [new Vector3(), new Vector3()];
   const inReach = new Uint8Array(positions.length / 3);

@@ -44,21 +44,11 @@ function open({ connection, url }: OpenRequest, Simplifier: typeof SurfaceSimpli
   socket = opened;
   const pass = (message: StreamMessage) =>
     page.postMessage({ kind: 'message', connection, message }, transferables(message));
-  const fail = (error: unknown) => {
-    drop();
-    const reason = `unreadable message: ${error instanceof Error ? error.message : String(error)}`;
-    page.postMessage({ kind: 'closed', connection, reason }, []);
-  };
   const goOn = () => {
     if (socket !== opened) return;
-    try {
-      const simpler = decoder.goOn(sliceMs);
-      if (simpler !== null) pass(simpler);
-      else if (decoder.works) betweenMessages(goOn);
-    } catch {
-      // It stays as it is.
-      pass({ kind: 'simpler', blocks: [] });
-    }
+    const simpler = decoder.goOn(sliceMs);
+    if (simpler !== null) pass(simpler);
+    else if (decoder.works) betweenMessages(goOn);
   };
   opened.binaryType = 'arraybuffer';
   opened.onmessage = (event: MessageEvent<ArrayBuffer>) => {
@@ -69,7 +59,9 @@ function open({ connection, url }: OpenRequest, Simplifier: typeof SurfaceSimpli
       pass(message);
       if (message.kind === 'mesh' && message.mesh.simplerFollow === true) betweenMessages(goOn);
     } catch (error) {
-      fail(error);
+      drop();
+      const reason = `unreadable message: ${error instanceof Error ? error.message : String(error)}`;
+      page.postMessage({ kind: 'closed', connection, reason }, []);
     }
   };
   opened.onclose = (event) => {

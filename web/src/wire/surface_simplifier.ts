@@ -50,8 +50,13 @@ export class SurfaceSimplifier {
     return all;
   }
 
+  /** What cannot be simplified stays as it is: the bone is seen all the same. */
   private simplify(surface: BlockSurface): BlockSurface {
-    return simplifiedSurface(surface, this.voxelSpacingMm);
+    try {
+      return simplifiedSurface(surface, this.voxelSpacingMm);
+    } catch {
+      return surface;
+    }
   }
 }
 
