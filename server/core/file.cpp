@@ -62,6 +62,7 @@ void sync_tree(const fs::path& folder) {
   for (fs::recursive_directory_iterator next(folder, failed), end; !failed && next != end;
        next.increment(failed)) {
     const fs::file_type type = next->symlink_status(failed).type();
+    if (failed) break;
     if (type == fs::file_type::regular || type == fs::file_type::directory) sync_file(next->path());
   }
   if (failed) throw Error(ErrorKind::io, "cannot read " + folder.string() + ": " + failed.message());

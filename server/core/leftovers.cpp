@@ -57,7 +57,7 @@ bool temporary_folder_of_data(const std::string& name) {
 }
 
 bool temporary_folder_of_system(const std::string& name) {
-  static const std::regex named(R"(ream-(read|ct|reamer)\.[A-Za-z0-9]{6})");
+  static const std::regex named(R"(ream-(read|ct|reamer|picture)\.[A-Za-z0-9]{6})");
   return std::regex_match(name, named);
 }
 

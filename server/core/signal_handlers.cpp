@@ -8,6 +8,8 @@
 #include <array>
 #include <mutex>
 
+#include "core/thread_stacks.hpp"
+
 namespace ream {
 namespace {
 
@@ -51,6 +53,7 @@ bool restore_handlers() noexcept {
 }
 
 SignalStack::SignalStack() noexcept {
+  note_stack_of_this_thread();
   const auto page = static_cast<size_t>(std::max(4096L, ::sysconf(_SC_PAGESIZE)));
   const auto wanted = std::max(min_stack_bytes, static_cast<size_t>(std::max(0L, ::sysconf(_SC_SIGSTKSZ))));
   const size_t bytes = page + (wanted + page - 1) / page * page;

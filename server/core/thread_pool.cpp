@@ -22,6 +22,8 @@ inline void pause_processor() {
 
 ThreadPool::ThreadPool(int threads) {
   if (threads <= 0) threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  // A thread that finds no place in the vector would end the program.
+  workers_.reserve(static_cast<size_t>(threads - 1));
   try {
     for (int worker = 1; worker < threads; ++worker)
       workers_.push_back(start_thread([this, worker] { work_on_jobs(worker); }));

@@ -4,7 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
-#include "isolation/reader_process.hpp"
+#include "isolation/isolated_job.hpp"
 
 namespace ream {
 namespace {
@@ -25,11 +25,11 @@ TriangleMesh load_mesh(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path, failed))
     throw Error(ErrorKind::not_found, "no such mesh: " + path.string());
   const auto bytes = std::filesystem::file_size(path, failed);
-  isolation::ReaderJob job;
+  isolation::IsolatedJob job;
   job.task = "mesh";
   job.input = path;
   job.limits.file_bytes = max_answer_bytes(failed ? 0 : bytes);
-  const isolation::ReaderResult result = isolation::read_isolated(job);
+  const isolation::IsolatedResult result = isolation::run_isolated(job);
   TriangleMesh mesh;
   mesh.vertices_mm = result.values<Vec3f>("vertices", job.limits.file_bytes);
   mesh.triangles = result.values<std::array<uint32_t, 3>>("triangles", job.limits.file_bytes);

@@ -24,7 +24,8 @@ namespace ream::isolation {
 namespace {
 
 [[noreturn]] void fail(const std::string& what, int error = errno) {
-  throw Error(ErrorKind::io, "the reader cannot be closed off: " + what + ": " + std::strerror(error));
+  throw Error(ErrorKind::io,
+              "a process of its own cannot be closed off: " + what + ": " + std::strerror(error));
 }
 
 /// The lower of this and of what the process may have anyhow: an administrator's limit is kept.
@@ -36,10 +37,11 @@ void limit(__rlimit_resource_t resource, uint64_t to, const char* what, uint64_t
   if (::setrlimit(resource, &bounds) != 0) fail(what);
 }
 
-/// Best effort: without these the reader is only a worse neighbour.
-void step_back() {
+/// Best effort: without these the process is only a worse neighbour.
+void step_back(bool background) {
   if (const FileDescriptor file{::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC)}) [[maybe_unused]]
     const ssize_t written = ::write(file.get(), "1000", 4);
+  if (!background) return;
   const sched_param idle{};
   ::sched_setscheduler(0, SCHED_IDLE, &idle);
   ::setpriority(PRIO_PROCESS, 0, 19);
@@ -100,9 +102,9 @@ void close_files_off(int version, std::span<const int> inputs, int output) {
   if (::syscall(SYS_landlock_restrict_self, rules.get(), 0) != 0) fail("Landlock");
 }
 
-/// Calls that reading needs: files, memory, time, its own threads and signals. All others fail with EPERM.
-/// None changes what Landlock does not govern (modes, times, owners and attributes of files) or acts on a
-/// process.
+/// Calls that reading and drawing need: files, memory, time, its own threads and signals. All others fail
+/// with EPERM. None changes what Landlock does not govern (modes, times, owners and attributes of files) or
+/// acts on a process.
 constexpr const char* allowed_calls =
     "read write readv writev pread64 pwrite64 open openat close lseek fstat stat lstat newfstatat statx "
     "statfs fstatfs access faccessat faccessat2 getdents64 getcwd readlink readlinkat mkdir mkdirat "
@@ -117,8 +119,9 @@ constexpr int allowed_descriptor_commands[] = {F_GETFD, F_SETFD, F_GETFL, F_DUPF
 
 scmp_arg_cmp equal(unsigned argument, uint64_t value) { return {argument, SCMP_CMP_EQ, value, 0}; }
 scmp_arg_cmp without(unsigned argument, uint64_t bits) { return {argument, SCMP_CMP_MASKED_EQ, bits, 0}; }
+scmp_arg_cmp with(unsigned argument, uint64_t bits) { return {argument, SCMP_CMP_MASKED_EQ, bits, bits}; }
 
-void close_calls_off() {
+void close_calls_off(bool compiles) {
   const std::unique_ptr<void, decltype(&::seccomp_release)> filter(::seccomp_init(SCMP_ACT_ERRNO(EPERM)),
                                                                    ::seccomp_release);
   if (!filter) fail("seccomp", ENOMEM);
@@ -134,10 +137,14 @@ void close_calls_off() {
   // Memory, but none that could be run: every library is loaded by now.
   for (const int call : {SCMP_SYS(mmap), SCMP_SYS(mprotect)})
     check(::seccomp_rule_add(filter.get(), SCMP_ACT_ALLOW, call, 1, without(2, PROT_EXEC)));
+  // What compiles writes code into memory that is no file's.
+  if (compiles) {
+    check(::seccomp_rule_add(filter.get(), SCMP_ACT_ALLOW, SCMP_SYS(mmap), 1, with(3, MAP_ANONYMOUS)));
+    check(::seccomp_rule_add(filter.get(), SCMP_ACT_ALLOW, SCMP_SYS(mprotect), 1, with(2, PROT_EXEC)));
+  }
   // A thread of its own, but no process. The newer call hides its flags: without it libc takes the older.
   constexpr uint64_t thread_flag = 0x10000;
-  check(::seccomp_rule_add(filter.get(), SCMP_ACT_ALLOW, SCMP_SYS(clone), 1,
-                           scmp_arg_cmp{0, SCMP_CMP_MASKED_EQ, thread_flag, thread_flag}));
+  check(::seccomp_rule_add(filter.get(), SCMP_ACT_ALLOW, SCMP_SYS(clone), 1, with(0, thread_flag)));
   check(::seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(ENOSYS), SCMP_SYS(clone3), 0));
   // abort() signals its own thread.
   check(::seccomp_rule_add(filter.get(), SCMP_ACT_ALLOW, SCMP_SYS(tgkill), 1,
@@ -169,12 +176,12 @@ std::string sandbox_in_words(const SandboxSupport& support) {
 }
 
 void enter_sandbox(std::span<const int> inputs, int output, const SandboxLimits& limits) {
-  step_back();
+  step_back(limits.background);
   set_limits(limits);
   if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) fail("privileges");
   const SandboxSupport support = sandbox_support();
   if (support.landlock > 0) close_files_off(support.landlock, inputs, output);
-  if (support.seccomp) close_calls_off();
+  if (support.seccomp) close_calls_off(limits.compiles);
 }
 
 }  // namespace ream::isolation

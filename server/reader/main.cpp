@@ -3,7 +3,7 @@
 
 #include "ct/read/ct_file_names.hpp"
 #include "ct/read/volume_answer.hpp"
-#include "isolation/reader_service.hpp"
+#include "isolation/isolated_service.hpp"
 #include "reader/ct_files.hpp"
 #include "reader/ct_source.hpp"
 #include "reader/gray_values.hpp"

@@ -37,7 +37,9 @@ struct Image {
   std::vector<uint8_t> rgba;
 };
 
-/// Draws with OSMesa (no display needed). Throws Error unavailable when no context can be made.
+/// Drawn by ream-renderer, a process of its own, on the processor: no display is needed, and a driver that
+/// crashes or finds no memory costs a picture. Throws Error: invalid_input for sizes and cameras that cannot
+/// be; unavailable, "the picture cannot be drawn: ...", whatever keeps it from being drawn.
 Image draw(const std::vector<Layer>& layers, const Camera& camera, int width, int height);
 
 /// The bytes of a PNG file. Error invalid_input for a picture without pixels, or with another number than its

@@ -11,7 +11,7 @@
 #include "core/json_reader.hpp"
 #include "ct/read/volume_answer.hpp"
 #include "ct/read/volume_job.hpp"
-#include "isolation/reader_process.hpp"
+#include "isolation/isolated_job.hpp"
 
 namespace ream::ct {
 namespace fs = std::filesystem;
@@ -26,11 +26,11 @@ voxel::GrayScale scale_from(const nlohmann::json& answer) {
   return scale;
 }
 
-isolation::ReaderResult read_codes(const fs::path& path, uint64_t max_bytes, const Progress& progress,
-                                   const fs::path& reader) {
-  isolation::ReaderJob job = volume_job("gray", path, reader);
+isolation::IsolatedResult read_codes(const fs::path& path, uint64_t max_bytes, const Progress& progress,
+                                     const fs::path& reader) {
+  isolation::IsolatedJob job = volume_job("gray", path, reader);
   job.options = {{"max_bytes", max_bytes}};
-  return isolation::read_isolated(job, progress);
+  return isolation::run_isolated(job, progress);
 }
 
 FileDescriptor opened(const fs::path& file) {
@@ -52,7 +52,7 @@ size_t layer_voxels(const Vec3i& dims) {
 }  // namespace
 
 struct GrayVolume::Contents {
-  explicit Contents(isolation::ReaderResult&& result) : read(std::move(result)) {
+  explicit Contents(isolation::IsolatedResult&& result) : read(std::move(result)) {
     place = volume_from(read.answer().at("volume"), true);
     gray = scale_from(read.answer().at("gray"));
     values = opened(read.file("values"));
@@ -78,7 +78,7 @@ struct GrayVolume::Contents {
     return words;
   }
 
-  isolation::ReaderResult read;
+  isolation::IsolatedResult read;
   HuVolume place;  ///< everything but the values
   voxel::GrayScale gray;
   FileDescriptor values, given;  ///< given: none where every voxel has a value

@@ -5,7 +5,7 @@
 #include "core/error.hpp"
 #include "ct/read/volume_answer.hpp"
 #include "ct/read/volume_job.hpp"
-#include "isolation/reader_process.hpp"
+#include "isolation/isolated_job.hpp"
 
 namespace ream::ct {
 namespace {
@@ -14,12 +14,13 @@ constexpr double reading_share = 0.95;
 
 HuVolume read(const char* task, const std::filesystem::path& path, const ReadOptions& options,
               const Progress& progress) {
-  isolation::ReaderJob job = volume_job(task, path, options.reader);
+  isolation::IsolatedJob job = volume_job(task, path, options.reader);
   job.options = {{"series_uid", options.series_uid},
                  {"keep_names", options.keep_names},
                  {"max_bytes", options.max_bytes}};
   job.scratch = options.scratch;
-  const isolation::ReaderResult result = isolation::read_isolated(job, part_of(progress, 0.0, reading_share));
+  const isolation::IsolatedResult result =
+      isolation::run_isolated(job, part_of(progress, 0.0, reading_share));
   HuVolume volume = volume_from(result.answer(), true);
   const uint64_t bytes = sizeof(int16_t) * volume.voxel_count();
   if (bytes > options.max_bytes)

@@ -14,9 +14,9 @@ constexpr size_t max_shown_name = 100;
 
 /// Empty where the header holds the voxels itself. The answer is not trusted: whoever took the reader over
 /// would name a file of somebody else.
-std::string voxel_file_beside(isolation::ReaderJob job) {
+std::string voxel_file_beside(isolation::IsolatedJob job) {
   job.task = "voxel_file";
-  const isolation::ReaderResult result = isolation::read_isolated(job);
+  const isolation::IsolatedResult result = isolation::run_isolated(job);
   const std::string name = JsonReader(result.answer(), "the answer of the reader").text("name");
   if (name.starts_with('.') || name.find('/') != std::string::npos || name.find('\0') != std::string::npos)
     throw Error(ErrorKind::invalid_input, job.input.string() +
@@ -27,9 +27,9 @@ std::string voxel_file_beside(isolation::ReaderJob job) {
 
 }  // namespace
 
-isolation::ReaderJob volume_job(const std::string& task, const std::filesystem::path& path,
-                                const std::filesystem::path& program) {
-  isolation::ReaderJob job;
+isolation::IsolatedJob volume_job(const std::string& task, const std::filesystem::path& path,
+                                  const std::filesystem::path& program) {
+  isolation::IsolatedJob job;
   job.program = program;
   job.input = path;
   if (names_another_file(path)) job.neighbour = voxel_file_beside(job);

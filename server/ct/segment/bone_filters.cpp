@@ -3,11 +3,14 @@
 #include <itkBlackTopHatImageFilter.h>
 #include <itkFlatStructuringElement.h>
 #include <itkImportImageFilter.h>
+#include <itkMultiThreaderBase.h>
 #include <itkSignedMaurerDistanceMapImageFilter.h>
 
 #include <algorithm>
 #include <limits>
+#include <mutex>
 
+#include "core/error.hpp"
 #include "ct/segment/voxel_window.hpp"
 
 namespace ream::ct {
@@ -16,6 +19,25 @@ namespace {
 using MaskImage = itk::Image<uint8_t, 3>;
 using HuImage = itk::Image<int16_t, 3>;
 using DistanceImage = itk::Image<float, 3>;
+
+/// For filters that are made from here on. ITK's pool of threads loses what one of them throws: when memory
+/// ran out, a part of the result was missing, and nobody heard of it. Threads of the platform are made anew,
+/// and tell.
+void choose_threads() {
+  static std::once_flag chosen;
+  std::call_once(chosen, [] {
+    itk::MultiThreaderBase::SetGlobalDefaultThreader(itk::MultiThreaderBase::ThreaderEnum::Platform);
+  });
+}
+
+template <typename Filter>
+void run(Filter& filter) {
+  try {
+    filter.Update();
+  } catch (const itk::ExceptionObject&) {  // nothing else goes wrong with images of ours
+    throw Error(ErrorKind::unavailable, "not enough memory to filter the CT; use a smaller region");
+  }
+}
 
 /// An image over the caller's memory.
 template <typename T>
@@ -45,13 +67,14 @@ Mask inverted(const Mask& mask) {
 
 std::vector<float> distance_to_set_mm(const Mask& mask, const Vec3i& dims, const Vec3& spacing_mm) {
   if (count_set(mask) == 0) return std::vector<float>(mask.size(), std::numeric_limits<float>::infinity());
+  choose_threads();
   auto maurer = itk::SignedMaurerDistanceMapImageFilter<MaskImage, DistanceImage>::New();
   maurer->SetInput(image_over(mask, dims, spacing_mm));
   maurer->SetBackgroundValue(0);
   maurer->SetSquaredDistance(false);
   maurer->SetUseImageSpacing(true);
   maurer->SetInsideIsPositive(false);
-  maurer->Update();
+  run(*maurer);
   const float* first = maurer->GetOutput()->GetBufferPointer();
   std::vector<float> distance(first, first + mask.size());
   for (float& d : distance) d = std::max(d, 0.0F);
@@ -82,11 +105,12 @@ std::vector<int16_t> valley_depth_hu(const std::vector<int16_t>& hu, const Vec3i
   for (unsigned axis = 0; axis < 3; ++axis)
     radius[axis] =
         static_cast<itk::SizeValueType>(std::max(1.0, std::floor(radius_mm / spacing_mm[axis] + 0.5)));
+  choose_threads();
   auto top_hat = itk::BlackTopHatImageFilter<HuImage, HuImage, Ball>::New();
   top_hat->SetInput(image_over(hu, dims, spacing_mm));
   top_hat->SetKernel(Ball::Ball(radius));
   top_hat->SetSafeBorder(true);
-  top_hat->Update();
+  run(*top_hat);
   const int16_t* first = top_hat->GetOutput()->GetBufferPointer();
   return {first, first + hu.size()};
 }

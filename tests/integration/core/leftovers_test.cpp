@@ -79,16 +79,18 @@ TEST_F(LeftoversTest, OfAKilledProcessAreRemovedAndOfALivingOneNot) {
   Maker maker([&] {
     static AtomicFile file(data / "rubrics/one.json"), session(data / "sessions/abcdefgh/session.json");
     static AtomicFolder made(data / "cases/doe-jane");
-    static TemporaryFolder backup(data / ".backup"), read(data / "temporary/ream-read");
+    static TemporaryFolder backup(data / ".backup"), read(data / "temporary/ream-read"),
+        picture(data / "temporary/ream-picture");
     write_file_atomically(made.path() / "ct.json", "a patient's");
     write_file_atomically(read.path() / "values", "a patient's");
+    write_file_atomically(picture.path() / "scene", "a patient's");
     file.write("half");
   });
   EXPECT_GE(everything().size(), 6u);
   EXPECT_EQ(remove_leftovers(data), 0u);
   EXPECT_GE(everything().size(), 6u);
   maker.kill();
-  EXPECT_EQ(remove_leftovers(data), 5u);
+  EXPECT_EQ(remove_leftovers(data), 6u);
   EXPECT_EQ(everything(), Names{"sessions/abcdefgh"});
 }
 

@@ -9,7 +9,7 @@
 #include "core/file.hpp"
 #include "ct/read/gray_volume.hpp"
 #include "ct/read/read_ct.hpp"
-#include "isolation/reader_service.hpp"
+#include "isolation/isolated_service.hpp"
 #include "isolation/sandbox.hpp"
 #include "store/zip_archive.hpp"
 #include "support/expect_error.hpp"

@@ -27,7 +27,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "isolation/reader_service.hpp"
+#include "isolation/isolated_service.hpp"
 
 namespace {
 
@@ -79,6 +79,11 @@ json call(const fs::path&, const json& options, const ream::Progress&) {
   void* const memory =
       ::mmap(nullptr, 4096, PROT_READ | PROT_WRITE | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   told["code"] = outcome(memory == MAP_FAILED ? -1 : 0);
+  std::ofstream("code") << std::string(4096, '\0');
+  const int file = ::open("code", O_RDWR);
+  void* const mapped = ::mmap(nullptr, 4096, PROT_READ | PROT_EXEC, MAP_PRIVATE, file, 0);
+  told["code of a file"] = outcome(mapped == MAP_FAILED ? -1 : 0);
+  ::close(file);
   told["descriptors"] = json::array();
   for (int descriptor = 7; descriptor < 60; ++descriptor)
     if (::fcntl(descriptor, F_GETFD) >= 0) told["descriptors"].push_back(descriptor);

@@ -9,44 +9,58 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/progress.hpp"
 #include "core/temporary_file.hpp"
 
 namespace ream::isolation {
 
-/// Also a reader that only sleeps ends after this; one that works is ended by its processor time long before.
-inline constexpr std::chrono::hours max_reading_time{2};
+/// Also a process that only sleeps ends after this; one that works is ended by its processor time long
+/// before.
+inline constexpr std::chrono::hours max_isolated_time{2};
 
-/// The program ream-reader: beside the program that runs, or where that is installed in bin, in lib/ream
-/// beside bin. It may not be there.
-std::filesystem::path reader_program();
+inline constexpr const char *reader_name = "ream-reader", *renderer_name = "ream-renderer";
+/// A program of ours beside the one that runs, or where that is installed in bin, in lib/ream beside bin. It
+/// may not be there.
+std::filesystem::path helper_program(const std::string& name);
 
-/// What one run of ream-reader may use.
-struct ReaderLimits {
+/// What one run may use.
+struct IsolatedLimits {
   uint64_t memory_bytes = 0;  ///< of address space; 0: three quarters of what this machine has free
   uint64_t file_bytes = uint64_t{16} << 30;  ///< of each file that it writes
   unsigned processor_s = 1800;
-  std::chrono::milliseconds time = max_reading_time;
+  std::chrono::milliseconds time = max_isolated_time;
   /// Of the disk that it writes to, where recordings lie, too; 0: 1 GiB, or a tenth of a small disk.
   uint64_t least_free_bytes = 0;
+  bool compiles = false;   ///< makes code while it runs, as a driver does for its shaders
+  bool background = true;  ///< runs only when nothing else wants the processor
 };
 
-/// A file from outside, and what is to be read out of it.
-struct ReaderJob {
-  std::filesystem::path program = {};  ///< empty: reader_program()
+/// How it is told that a job has failed.
+struct IsolatedWords {
+  std::string worker = "the reader";
+  std::string failure = {};  ///< "the picture cannot be drawn"; empty: that the input cannot be read
+  std::string hint = "; it may be damaged, or not what its name says";
+  ErrorKind kind = ErrorKind::invalid_input;
+};
+
+/// A file, and what is to be made of it.
+struct IsolatedJob {
+  std::filesystem::path program = {};  ///< empty: ream-reader's
   std::string task;                    ///< a name that it knows
   std::filesystem::path input;         ///< a file or a folder
   std::string neighbour = {};  ///< name of a file in the same folder that may be read, too; empty: none
   nlohmann::json options = nlohmann::json::object();
-  ReaderLimits limits;
+  IsolatedLimits limits;
   std::filesystem::path scratch;  ///< folder for what it writes; empty: the system's for temporary files
+  IsolatedWords words = {};
 };
 
 /// What it answered. The files that it wrote go away with this object. Both come from a process that a file
 /// may have taken over: check every number before it is used.
-class ReaderResult {
+class IsolatedResult {
  public:
-  ReaderResult(nlohmann::json answer, std::unique_ptr<TemporaryFolder> folder)
+  IsolatedResult(nlohmann::json answer, std::unique_ptr<TemporaryFolder> folder)
       : answer_(std::move(answer)), folder_(std::move(folder)) {}
 
   const nlohmann::json& answer() const { return answer_; }
@@ -73,10 +87,10 @@ class ReaderResult {
   std::unique_ptr<TemporaryFolder> folder_;
 };
 
-/// Reads a file from outside in a process of its own, the program ream-reader, which sees nothing but this
-/// file and an empty folder (sandbox.hpp). Waits for it; the process ends with this call, also when
-/// `progress` throws. Errors: not_found; what the reader says, one line that names the input; invalid_input
-/// when it crashed or went beyond its limits; io when it cannot be started.
-ReaderResult read_isolated(const ReaderJob& job, const Progress& progress = no_progress);
+/// Does a job in a process of its own, such as the program ream-reader, which sees nothing but the input and
+/// an empty folder (sandbox.hpp). Waits for it; the process ends with this call, also when `progress` throws.
+/// Errors: not_found; what the process says, one line; the kind of the job's words when it crashed or went
+/// beyond its limits; io when it cannot be started.
+IsolatedResult run_isolated(const IsolatedJob& job, const Progress& progress = no_progress);
 
 }  // namespace ream::isolation

@@ -1,4 +1,4 @@
-#include "isolation/reader_service.hpp"
+#include "isolation/isolated_service.hpp"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -51,7 +52,7 @@ struct Input {
   std::vector<int> readable;  ///< open descriptors
 };
 
-/// A file in the folder that the reader was started with. There may be none of that name, or a folder, of
+/// A file in the folder that the process was started with. There may be none of that name, or a folder, of
 /// which nothing may be read: who needs it says so.
 void open_in_folder(Input& input, const fs::path& name, int how) {
   const int file = ::openat(input_descriptor, name.filename().c_str(), O_RDONLY | O_CLOEXEC | how);
@@ -95,7 +96,7 @@ Progress reporting() {
       };
 }
 
-json done(const std::map<std::string, ReaderTask>& tasks, const json& request) {
+json done(const std::map<std::string, IsolatedTask>& tasks, const json& request) {
   const Input input = open_input(request);
   const auto failed = [&](ErrorKind kind, const std::string& words) {
     return json{{"error", as_given(words, input)}, {"kind", static_cast<int>(kind)}};
@@ -103,7 +104,8 @@ json done(const std::map<std::string, ReaderTask>& tasks, const json& request) {
   try {
     const SandboxLimits limits{request.at("memory_bytes").get<uint64_t>(),
                                request.at("file_bytes").get<uint64_t>(),
-                               request.at("processor_s").get<unsigned>()};
+                               request.at("processor_s").get<unsigned>(), request.at("compiles").get<bool>(),
+                               request.at("background").get<bool>()};
     enter_sandbox(input.readable, output_descriptor, limits);
     return {{"answer", tasks.at(request.at("task"))(input.path, request.at("options"), reporting())}};
   } catch (const Error& error) {
@@ -121,12 +123,12 @@ json done(const std::map<std::string, ReaderTask>& tasks, const json& request) {
 void write_values(const std::string& name, std::span<const std::byte> values) {
   std::ofstream out(name, std::ios::binary);
   out.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size()));
-  if (!out.flush()) throw Error(ErrorKind::io, "there is no room on the disk for what is read");
+  if (!out.flush()) throw Error(ErrorKind::io, "there is no room on the disk for temporary files");
 }
 
-void serve_one_job(const std::map<std::string, ReaderTask>& tasks) {
+void serve_one_job(const std::map<std::string, IsolatedTask>& tasks) {
   if (::fcntl(request_descriptor, F_GETFD) < 0 || ::fcntl(answer_descriptor, F_GETFD) < 0) {
-    std::cerr << "ream-reader is started by ream; there is nothing to call by hand\n";
+    std::cerr << program_invocation_short_name << " is started by ream; there is nothing to call by hand\n";
     std::_Exit(2);
   }
   const json request = take_request();

@@ -4,14 +4,13 @@
 
 #include <cmath>
 #include <fstream>
+#include <thread>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/units.hpp"
 #include "render/camera.hpp"
-
-/// OSMesa keeps about 160 bytes of each context it has destroyed.
-extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa"; }
+#include "support/expect_error.hpp"
 
 namespace ream::render {
 namespace {
@@ -123,6 +122,27 @@ TEST(Snapshot, NothingToDrawIsPlainBackground) {
   const TriangleMesh empty;
   EXPECT_EQ(covered(draw({}, camera_at(50), 32, 16)), 0);
   EXPECT_EQ(covered(draw({{&empty, {}, red, 0.5f}}, camera_at(50), 32, 16)), 0);
+}
+
+/// As reports and downloads have several, of sessions that end at one time.
+TEST(Snapshot, IsTheSameWhenManyAreDrawnAtOnce) {
+  const TriangleMesh mesh = sphere(10);
+  const Image alone = draw({{&mesh, {}, red, 1.0f}}, camera_at(50), 64, 64);
+  std::vector<Image> drawn(4);
+  {
+    std::vector<std::jthread> threads;
+    for (Image& image : drawn)
+      threads.emplace_back([&] { image = draw({{&mesh, {}, red, 1.0f}}, camera_at(50), 64, 64); });
+  }
+  for (const Image& image : drawn) EXPECT_EQ(image.rgba, alone.rgba);
+}
+
+/// A report goes without pictures then.
+TEST(Snapshot, WithoutAFolderForTemporaryFilesIsUnavailable) {
+  ::setenv("TMPDIR", "/nowhere", 1);
+  test::expect_error(ErrorKind::unavailable,
+                     "the picture cannot be drawn: ", [] { draw({}, camera_at(50), 8, 8); });
+  ::unsetenv("TMPDIR");
 }
 
 TEST(Snapshot, RefusesImpossibleSizesAndCameras) {

@@ -1,5 +1,6 @@
-#include "isolation/reader_process.hpp"
+#include "isolation/isolated_job.hpp"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
@@ -23,7 +24,7 @@
 #include "core/json.hpp"
 #include "core/temporary_file.hpp"
 #include "core/text.hpp"
-#include "isolation/reader_service.hpp"
+#include "isolation/isolated_service.hpp"
 
 namespace ream::isolation {
 namespace fs = std::filesystem;
@@ -36,13 +37,15 @@ constexpr int max_output_depth = 32;
 constexpr uint64_t usual_least_free_bytes = uint64_t{1} << 30;
 constexpr size_t max_request_bytes = 32768, max_answer_bytes = 1 << 20, max_words = 1000;
 
-fs::path program_of(const ReaderJob& job) { return job.program.empty() ? reader_program() : job.program; }
-
-Error cannot_start(const std::string& why) {
-  return {ErrorKind::io, "cannot start the program that reads files from outside: " + why};
+fs::path program_of(const IsolatedJob& job) {
+  return job.program.empty() ? helper_program(reader_name) : job.program;
 }
 
-/// Out of the way of the descriptors that the reader is given.
+Error cannot_start(const std::string& why) {
+  return {ErrorKind::io, "a process of its own cannot be started: " + why};
+}
+
+/// Out of the way of the descriptors that the process is given.
 FileDescriptor moved_up(int descriptor) {
   FileDescriptor moved(::fcntl(descriptor, F_DUPFD_CLOEXEC, answer_descriptor + 1));
   if (!moved) throw cannot_start(std::strerror(errno));
@@ -131,7 +134,7 @@ uint64_t free_memory() {
   return uint64_t{info.freeram} * info.mem_unit;
 }
 
-void send_request(const FileDescriptor& to, const ReaderJob& job) {
+void send_request(const FileDescriptor& to, const IsolatedJob& job) {
   const uint64_t memory = job.limits.memory_bytes > 0 ? job.limits.memory_bytes : free_memory() / 4 * 3;
   const std::string text = json{
       {"task", job.task},
@@ -141,6 +144,8 @@ void send_request(const FileDescriptor& to, const ReaderJob& job) {
       {"memory_bytes", memory},
       {"file_bytes", job.limits.file_bytes},
       {"processor_s", job.limits.processor_s},
+      {"compiles", job.limits.compiles},
+      {"background", job.limits.background},
       {"parent", ::getpid()}}.dump(-1, ' ', false, json::error_handler_t::replace);
   if (text.size() > max_request_bytes || ::write(to.get(), text.data(), text.size()) < 0)
     throw cannot_start("the job has too many words");
@@ -152,19 +157,22 @@ json parsed(const std::string& line) {
   return message.is_object() ? message : json::object();
 }
 
-Error unreadable(const ReaderJob& job, const std::string& why) {
-  return {ErrorKind::invalid_input,
-          job.input.string() + " cannot be read: " + why + "; it may be damaged, or not what its name says"};
+std::string failure_words(const IsolatedJob& job) {
+  return job.words.failure.empty() ? job.input.string() + " cannot be read" : job.words.failure;
 }
 
-/// What the reader says, line by line, until its answer or its end (null).
+Error failure_of(const IsolatedJob& job, const std::string& why) {
+  return {job.words.kind, failure_words(job) + ": " + why + job.words.hint};
+}
+
+/// What the process says, line by line, until its answer or its end (null).
 class Answers {
  public:
-  /// `output`: the folder that the reader writes to.
+  /// `output`: the folder that it writes to.
   Answers(const FileDescriptor& from, const FileDescriptor& output, const Progress& progress)
       : from_(from), output_(output), progress_(progress) {}
 
-  json wait(const ReaderJob& job) {
+  json wait(const IsolatedJob& job) {
     const auto latest = std::chrono::steady_clock::now() + job.limits.time;
     while (std::chrono::steady_clock::now() < latest) {
       require_space(job);
@@ -180,21 +188,20 @@ class Answers {
       text_.append(piece.data(), static_cast<size_t>(n));
       if (json answer = whole_lines(); !answer.is_null()) return answer;
     }
-    throw unreadable(
-        job, "the reader did not answer within " +
+    throw failure_of(
+        job, job.words.worker + " did not answer within " +
                  std::to_string(std::chrono::ceil<std::chrono::seconds>(job.limits.time).count()) + " s");
   }
 
  private:
-  void require_space(const ReaderJob& job) const {
+  void require_space(const IsolatedJob& job) const {
     struct statvfs system {};
     if (::fstatvfs(output_.get(), &system) != 0 || system.f_blocks == 0) return;
     const uint64_t tenth = uint64_t{system.f_blocks} * system.f_frsize / 10;
     const uint64_t least = job.limits.least_free_bytes > 0 ? job.limits.least_free_bytes
                                                            : std::min(usual_least_free_bytes, tenth);
     if (uint64_t{system.f_bavail} * system.f_frsize < least)
-      throw Error(ErrorKind::io,
-                  job.input.string() + " cannot be read: the disk for temporary files is nearly full");
+      throw Error(ErrorKind::io, failure_words(job) + ": the disk for temporary files is nearly full");
   }
 
   json whole_lines() {
@@ -217,17 +224,18 @@ class Answers {
   double share_ = 0.0;
 };
 
-Error what_ended_it(const ReaderJob& job, int status) {
-  std::string why = "the reader ended without an answer";
+Error what_ended_it(const IsolatedJob& job, int status) {
+  const std::string& worker = job.words.worker;
+  std::string why = worker + " ended without an answer";
   if (WIFSIGNALED(status)) {
     const int signal = WTERMSIG(status);
     why = signal == SIGXCPU
               ? "it took more than " + std::to_string(job.limits.processor_s) + " s of processor time"
           : signal == SIGXFSZ ? "what is in it is larger than is taken"
-          : signal == SIGKILL ? "the reader had to be ended, as memory ran out or it answered without end"
-                              : std::string("the reader crashed on it (") + ::strsignal(signal) + ")";
+          : signal == SIGKILL ? worker + " had to be ended, as memory ran out or it answered without end"
+                              : worker + " crashed on it (" + ::strsignal(signal) + ")";
   }
-  return unreadable(job, why);
+  return failure_of(job, why);
 }
 
 /// What it wrote is files and folders, so that no name below leads elsewhere or waits for somebody. The links
@@ -238,12 +246,13 @@ void check_output(const fs::path& folder) {
   for (fs::recursive_directory_iterator next(folder, failed), end; !failed && next != end;
        next.increment(failed)) {
     if (next.depth() > max_output_depth)
-      throw Error(ErrorKind::io, "the reader wrote folders that lie too deep");
+      throw Error(ErrorKind::io, "a process of its own wrote folders that lie too deep");
     const fs::file_type type = next->symlink_status(failed).type();
     if (!failed && type != fs::file_type::regular && type != fs::file_type::directory)
-      throw Error(ErrorKind::io, "the reader wrote something that is neither a file nor a folder");
+      throw Error(ErrorKind::io, "a process of its own wrote something that is neither a file nor a folder");
   }
-  if (failed) throw Error(ErrorKind::io, "what the reader wrote cannot be looked at: " + failed.message());
+  if (failed)
+    throw Error(ErrorKind::io, "what a process of its own wrote cannot be looked at: " + failed.message());
 }
 
 ErrorKind kind_of(const json& message) {
@@ -254,44 +263,53 @@ ErrorKind kind_of(const json& message) {
                                                        : ErrorKind::invalid_input;
 }
 
-}  // namespace
-
-fs::path reader_program() {
+/// The program that this code is in, or Python's module (python/).
+fs::path own_file() {
   std::error_code failed;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", failed).parent_path();
-  const fs::path installed = folder.parent_path() / "lib/ream/ream-reader";
-  return folder.filename() == "bin" && fs::exists(installed, failed) ? installed : folder / "ream-reader";
+  Dl_info found{};
+  ::dladdr(reinterpret_cast<const void*>(&helper_program), &found);
+  const fs::path file = found.dli_fname == nullptr ? "" : found.dli_fname;
+  return file.extension() == ".so" ? fs::absolute(file, failed) : fs::read_symlink("/proc/self/exe", failed);
 }
 
-fs::path ReaderResult::file(const std::string& name) const {
+}  // namespace
+
+fs::path helper_program(const std::string& name) {
+  std::error_code failed;
+  const fs::path folder = own_file().parent_path();
+  const fs::path installed = folder.parent_path() / "lib/ream" / name;
+  return folder.filename() == "bin" && fs::exists(installed, failed) ? installed : folder / name;
+}
+
+fs::path IsolatedResult::file(const std::string& name) const {
   const fs::path path = folder_->path() / name;
   std::error_code failed;
   if (!fs::is_regular_file(fs::symlink_status(path, failed)))
-    throw Error(ErrorKind::io, "the reader answered without writing " + name);
+    throw Error(ErrorKind::io, "a process of its own answered without writing " + name);
   return path;
 }
 
-size_t ReaderResult::count_in(const std::string& name, size_t value_bytes, uint64_t max_bytes) const {
+size_t IsolatedResult::count_in(const std::string& name, size_t value_bytes, uint64_t max_bytes) const {
   const uint64_t bytes = fs::file_size(file(name));
   if (bytes > max_bytes || bytes % value_bytes != 0)
-    throw Error(ErrorKind::io,
-                "the reader wrote " + std::to_string(bytes) + " bytes of " + name + ", which cannot be");
+    throw Error(ErrorKind::io, "a process of its own wrote " + std::to_string(bytes) + " bytes of " + name +
+                                   ", which cannot be");
   return bytes / value_bytes;
 }
 
-void ReaderResult::require_bytes(const std::string& name, uint64_t bytes) const {
+void IsolatedResult::require_bytes(const std::string& name, uint64_t bytes) const {
   if (const uint64_t written = fs::file_size(file(name)); written != bytes)
-    throw Error(ErrorKind::io, "the reader wrote " + std::to_string(written) + " bytes of " + name +
+    throw Error(ErrorKind::io, "a process of its own wrote " + std::to_string(written) + " bytes of " + name +
                                    ", but its answer needs " + std::to_string(bytes));
 }
 
-void ReaderResult::read(const std::string& name, std::span<std::byte> into) const {
+void IsolatedResult::read(const std::string& name, std::span<std::byte> into) const {
   const FileDescriptor in(::open(file(name).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
   if (!in || in.read_at(0, into) != static_cast<ssize_t>(into.size()))
-    throw Error(ErrorKind::io, "what the reader wrote as " + name + " cannot be read");
+    throw Error(ErrorKind::io, "what a process of its own wrote as " + name + " cannot be read");
 }
 
-ReaderResult read_isolated(const ReaderJob& job, const Progress& progress) {
+IsolatedResult run_isolated(const IsolatedJob& job, const Progress& progress) {
   std::error_code failed;
   if (!fs::exists(job.input, failed))
     throw Error(ErrorKind::not_found, "no such file or folder: " + job.input.string());

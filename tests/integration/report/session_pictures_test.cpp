@@ -7,9 +7,6 @@
 
 #include "score/deviation.hpp"
 
-/// OSMesa keeps about 160 bytes of each context it has destroyed.
-extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa"; }
-
 namespace ream::report {
 namespace {
 
