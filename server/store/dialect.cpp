@@ -135,7 +135,9 @@ void begin_reading(Sql& sql) {
 }
 
 void lift_time_limit(Sql& sql) {
-  if (on_postgresql(sql)) sql << "SET LOCAL statement_timeout = 0";
+  if (!on_postgresql(sql)) return;
+  sql << "SET LOCAL statement_timeout = 0";
+  sql << "SET LOCAL idle_in_transaction_session_timeout = 0";
 }
 
 int socket_of(Sql& sql) noexcept { return on_postgresql(sql) ? ::PQsocket(connection_of(sql)) : -1; }

@@ -35,7 +35,7 @@ void advance_identity(Sql& sql, const std::string& table);
 void begin_writing(Sql& sql);
 void begin_reading(Sql& sql);
 
-/// Until the end of the transaction statements may take as long as they need.
+/// Until the end of the transaction statements, and what is done between them, may take as long as they need.
 void lift_time_limit(Sql& sql);
 
 /// -1 for a database that is no server.

@@ -31,10 +31,12 @@ void migrate(Sql& sql);
 /// when a newer build has changed its tables.
 size_t missing_migrations(const std::string& url);
 
-/// To be called before an older database is opened, which changes its tables: of a SQLite file a copy is kept
-/// beside it, `<file>.before-NNN` with the number of the first step that it lacks, so that the older version
-/// can go on with it. Returns the copy's path; empty where none was made, as the database is new, up to date
-/// or of PostgreSQL, or the copy is there already. Errors: those of missing_migrations(); io.
-std::filesystem::path keep_before_migration(const std::string& url);
+/// To be called before an older database is opened, which changes its tables: a copy is kept with which the
+/// older version can go on, a SQLite file named after the first step that is missing. Of a SQLite file it
+/// lies beside it, `<file>.before-NNN`; of PostgreSQL in `folder`, which is made,
+/// `<name>-<hash of its address>.postgresql.before-NNN`. Returns the copy's path; empty where none was made,
+/// as the database is new or up to date, or a copy is there already, which is logged. Errors: those of
+/// missing_migrations(); io.
+std::filesystem::path keep_before_migration(const std::string& url, const std::filesystem::path& folder);
 
 }  // namespace ream::store

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "core/json.hpp"
@@ -34,6 +35,7 @@ struct RowCells {
 
 std::vector<std::string> names_of(const std::vector<Column>& columns) {
   std::vector<std::string> names;
+  names.reserve(columns.size());
   for (const Column& column : columns) names.push_back(column.name);
   return names;
 }
@@ -51,23 +53,45 @@ json value_of(const Column& column, const Cell& cell) {
   return cell.text;
 }
 
-/// Sorted by every column, so that both kinds of database give the same order.
+/// Calls `bind` with the variable that holds this column's kind of value, and with its indicator.
+template <typename Bind>
+void bind_cell(RowCells& row, size_t place, Bind&& bind) {
+  Cell& cell = row.cells[place];
+  switch (row.columns[place].kind) {
+    case Column::Kind::whole: return bind(cell.whole, cell.indicator);
+    case Column::Kind::number: return bind(cell.number, cell.indicator);
+    case Column::Kind::text: return bind(cell.text, cell.indicator);
+  }
+}
+
+/// All rows, one after the other in `row`. Sorted by every column, so that both kinds of database give the
+/// same order.
+OpenStatement selection(Sql& sql, const std::string& table, RowCells& row) {
+  const std::string list = joined(names_of(row.columns));
+  OpenStatement statement(sql, "SELECT " + list + " FROM " + table + " ORDER BY " + list);
+  for (size_t i = 0; i < row.cells.size(); ++i)
+    bind_cell(row, i, [&](auto& value, auto& indicator) { statement.into(value, indicator); });
+  return statement;
+}
+
+/// To be executed for what these of the row's columns hold each time.
+soci::statement insertion(Sql& sql, const std::string& table, RowCells& row,
+                          const std::vector<size_t>& places) {
+  std::vector<std::string> names;
+  names.reserve(places.size());
+  for (const size_t place : places) names.push_back(row.columns[place].name);
+  OpenStatement statement(
+      sql, "INSERT INTO " + table + " (" + joined(names) + ") VALUES (" + joined(names, ":") + ")");
+  for (const size_t place : places)
+    bind_cell(row, place, [&](auto& value, auto& indicator) { statement.with(value, indicator); });
+  return statement.prepared();
+}
+
 uint64_t write_table(Sql& sql, const std::string& table, const fs::path& file) {
   RowCells row(sql, table);
-  const std::vector<std::string> names = names_of(row.columns);
-  const std::string list = joined(names);
-  OpenStatement statement(sql, "SELECT " + list + " FROM " + table + " ORDER BY " + list);
-  for (size_t i = 0; i < row.cells.size(); ++i) {
-    Cell& cell = row.cells[i];
-    if (row.columns[i].kind == Column::Kind::whole)
-      statement.into(cell.whole, cell.indicator);
-    else if (row.columns[i].kind == Column::Kind::number)
-      statement.into(cell.number, cell.indicator);
-    else
-      statement.into(cell.text, cell.indicator);
-  }
+  OpenStatement statement = selection(sql, table, row);
   std::ofstream out(file, std::ios::binary);
-  out << json(names).dump() << '\n';
+  out << json(names_of(row.columns)).dump() << '\n';
   uint64_t count = 0;
   statement.each([&] {
     json line = json::array();
@@ -92,7 +116,6 @@ class TableReader {
  private:
   json next_line(size_t length);
   std::vector<size_t> read_heading();
-  soci::statement insertion(const std::vector<size_t>& places);
   void set(size_t place, const json& value);
   [[noreturn]] void refuse(const std::string& why) const {
     throw Error(ErrorKind::invalid_input, name_ + ", line " + std::to_string(line_) + ": " + why);
@@ -128,23 +151,6 @@ std::vector<size_t> TableReader::read_heading() {
   return places;
 }
 
-soci::statement TableReader::insertion(const std::vector<size_t>& places) {
-  std::vector<std::string> names;
-  for (const size_t place : places) names.push_back(row_.columns[place].name);
-  OpenStatement statement(
-      sql_, "INSERT INTO " + table_ + " (" + joined(names) + ") VALUES (" + joined(names, ":") + ")");
-  for (const size_t place : places) {
-    Cell& cell = row_.cells[place];
-    if (row_.columns[place].kind == Column::Kind::whole)
-      statement.with(cell.whole, cell.indicator);
-    else if (row_.columns[place].kind == Column::Kind::number)
-      statement.with(cell.number, cell.indicator);
-    else
-      statement.with(cell.text, cell.indicator);
-  }
-  return statement.prepared();
-}
-
 void TableReader::set(size_t place, const json& value) {
   Cell& cell = row_.cells[place];
   cell.indicator = value.is_null() ? soci::i_null : soci::i_ok;
@@ -164,7 +170,7 @@ void TableReader::set(size_t place, const json& value) {
 
 uint64_t TableReader::read() {
   const std::vector<size_t> places = read_heading();
-  soci::statement insert = insertion(places);
+  soci::statement insert = insertion(sql_, table_, row_, places);
   uint64_t count = 0;
   for (json line = next_line(places.size()); !line.is_null(); line = next_line(places.size())) {
     for (size_t i = 0; i < places.size(); ++i) set(places[i], line[i]);
@@ -184,6 +190,21 @@ std::vector<TableFile> write_table_files(Database& database, const fs::path& fol
       files.push_back({table, write_table(sql, table, file_of(folder, table))});
     return files;
   });
+}
+
+void copy_tables(Sql& from, Sql& to) {
+  const std::vector<std::string> tables = table_names();
+  for (auto table = tables.rbegin(); table != tables.rend(); ++table)
+    if (!columns_of(to, *table).empty()) to << "DELETE FROM " + *table;
+  for (const std::string& table : tables) {
+    RowCells row(from, table);
+    if (row.columns.empty()) continue;
+    std::vector<size_t> places(row.columns.size());
+    std::iota(places.begin(), places.end(), size_t{0});
+    soci::statement insert = insertion(to, table, row, places);
+    selection(from, table, row).each([&] { insert.execute(true); });
+    advance_identity(to, table);
+  }
 }
 
 std::vector<std::string> filled_tables(Database& database) {

@@ -21,6 +21,10 @@ struct TableFile {
 /// Writes all tables as they are at one moment into `folder`, rows sorted. Errors: those of Database; io.
 std::vector<TableFile> write_table_files(Database& database, const std::filesystem::path& folder);
 
+/// Replaces what the tables of `to` hold by the rows of `from`, which has the same tables. Within the
+/// caller's transactions.
+void copy_tables(Sql& from, Sql& to);
+
 /// Tables that hold anything.
 std::vector<std::string> filled_tables(Database& database);
 

@@ -174,6 +174,27 @@ TYPED_TEST(BackupTest, KeepsLiveSessionsAsFarAsTheyHadCome) {
   EXPECT_EQ(read_text_file(other.data() / "sessions/live/session.json"), R"({"state": "running"})");
 }
 
+/// What cannot be looked at may be somebody's sessions; a backup without them would be none.
+TYPED_TEST(BackupTest, OfWhatCannotBeReadIsNoBackup) {
+  House<TypeParam> house;
+  fill(house);
+  house.write("lost+found/#12", "a file system's own");
+  write_backup(house.database, house.data(), this->file());
+  EXPECT_EQ(house.kept().count("lost+found/#12"), 0u);
+  const fs::path cases = house.data() / "cases", elsewhere = house.folder.path() / "elsewhere";
+  fs::rename(cases, elsewhere);
+  fs::create_directory_symlink(elsewhere, cases);
+  EXPECT_EQ(write_backup(house.database, house.data(), this->file()).counts.at("cases"), 1u);
+  // As of a disk that is not mounted.
+  fs::rename(elsewhere, house.folder.path() / "unmounted");
+  expect_error(ErrorKind::io, cases.string(),
+               [&] { write_backup(house.database, house.data(), this->file()); });
+  fs::remove(cases);
+  fs::create_directory_symlink("nowhere", house.data() / "sessions/gone");
+  expect_error(ErrorKind::io, "sessions/gone",
+               [&] { write_backup(house.database, house.data(), this->file()); });
+}
+
 TYPED_TEST(BackupTest, InterruptedItLeavesNothing) {
   House<TypeParam> house, other;
   fill(house);

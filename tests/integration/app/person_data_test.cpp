@@ -103,10 +103,14 @@ TYPED_TEST(PersonDataTest, NothingStaysInRemarksBlackBoxesStudiesAndWhatWasMoved
   fs::create_directories(aside / "tables");
   store::write_table_files(this->database(), aside / "tables");
   fs::copy(this->data.path() / "sessions", aside / "sessions", fs::copy_options::recursive);
+  this->data.write("before-restore-2025.tar.gz", "somebody's own archive");
   ASSERT_EQ(export_person(this->database(), this->access_control, this->data.path(), this->tina)
                 .at("sessions")
                 .size(),
             2u);
+  test::expect_error(ErrorKind::not_found, "no data folder", [&] {
+    export_person(this->database(), this->access_control, this->data.path() / "nowhere", this->tina);
+  });
   const ForgetReport report = this->forget();
   EXPECT_TRUE(report.left.empty()) << report.left.front();
   EXPECT_FALSE(this->is_in_a_file("Tina"));

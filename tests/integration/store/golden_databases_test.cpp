@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <vector>
 
 #include "core/file.hpp"
@@ -12,8 +13,10 @@
 #include "store/session_index.hpp"
 #include "store/sql.hpp"
 #include "store/study_table.hpp"
+#include "store/table_files.hpp"
 #include "store/user_table.hpp"
 #include "support/places.hpp"
+#include "support/temporary_folder.hpp"
 #include "support/test_databases.hpp"
 
 namespace ream::store {
@@ -51,33 +54,37 @@ class GoldenDatabasesTest : public test::TestDatabase<Store> {
 };
 TYPED_TEST_SUITE(GoldenDatabasesTest, test::BothStores, test::StoreNames);
 
-/// The way back to an older version: a SQLite file is kept as that version left it.
+/// All rows of all tables, as files.
+std::map<std::string, std::string> rows_of(Database& database) {
+  const test::TemporaryFolder folder;
+  std::map<std::string, std::string> rows;
+  for (const TableFile& file : write_table_files(database, folder.path()))
+    rows[file.table] = read_text_file(folder.path() / (file.table + ".jsonl"));
+  return rows;
+}
+
+/// The way back to an older version: a SQLite file is kept as that version left the database.
 TYPED_TEST(GoldenDatabasesTest, AreKeptBeforeTheyAreBroughtUpToDate) {
-  const bool sqlite = this->url().starts_with("sqlite:");
-  const auto users_in = [](Database& database) {
-    return database.read([](Sql& sql) {
-      int count = 0;
-      sql << "SELECT count(*) FROM users", into(count);
-      return count;
-    });
-  };
+  const test::TemporaryFolder folder;
   for (size_t i = 1; i + 1 < migrations().size(); ++i) {
     this->become(golden_files()[i]);
     const size_t missing = migrations().size() - i - 1;
     ASSERT_EQ(missing_migrations(this->url()), missing);
-    const fs::path kept = keep_before_migration(this->url());
-    EXPECT_EQ(kept.empty(), !sqlite);
+    const fs::path kept = keep_before_migration(this->url(), folder.path());
     EXPECT_EQ(missing_migrations(this->url()), missing) << "keeping it has changed it";
-    if (!sqlite) continue;
     const std::string next = std::to_string(1000 + migrations()[i + 1].number).substr(1);
     EXPECT_TRUE(kept.string().ends_with(".before-" + next)) << kept;
+    for (const auto& entry : fs::directory_iterator(kept.parent_path()))
+      EXPECT_FALSE(entry.path().filename().string().starts_with(kept.filename().string() + ".")) << entry;
+    EXPECT_FALSE(fs::exists(kept.string() + "-wal"));
     EXPECT_EQ(missing_migrations("sqlite:" + kept.string()), missing);
-    EXPECT_EQ(keep_before_migration(this->url()), fs::path()) << "a copy that is there was replaced";
+    EXPECT_EQ(keep_before_migration(this->url(), folder.path()), fs::path())
+        << "a copy that is there was replaced";
     const auto upgraded = this->open_again();
     EXPECT_EQ(missing_migrations(this->url()), 0u);
-    EXPECT_EQ(keep_before_migration(this->url()), fs::path());
+    EXPECT_EQ(keep_before_migration(this->url(), folder.path()), fs::path());
     Database back("sqlite:" + kept.string());
-    EXPECT_EQ(users_in(back), users_in(*upgraded));
+    EXPECT_EQ(rows_of(back), rows_of(*upgraded));
   }
 }
 
