@@ -1,5 +1,6 @@
 // A reamer far below the subchondral plate has cut spongy bone: how that looks, by the quality of the picture.
-import { writeFileSync } from 'node:fs';
+import { spawnSync } from 'node:child_process';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
 import { expect, type Page, test } from '@playwright/test';
@@ -80,5 +81,23 @@ test('spongy bone that was cut shows its pores but in the plainest picture, and 
       await drawn(page);
       await expectKeptLook(page, `cut-bone-${quality}-${colorScheme}`, await page.screenshot({ clip }));
     }
+  }
+});
+
+test('on paper it is the same bone', async ({ page }) => {
+  await reamDeeply();
+  const { server } = here;
+  const run = join(server.dataFolder, 'sessions', session);
+  const picture = join(server.dataFolder, 'bone.png');
+  server.command('render', run, '--out', picture);
+  await expectKeptLook(page, 'cut-bone-paper', readFileSync(picture));
+
+  const report = join(server.dataFolder, 'report.pdf');
+  server.command('export', run, '--out', report);
+  for (const number of [1, 2]) {
+    const sheet = join(server.dataFolder, `sheet-${number}`);
+    const of = ['-png', '-r', '90', '-singlefile', '-f', String(number), '-l', String(number), report, sheet];
+    expect(spawnSync('pdftoppm', of).status).toBe(0);
+    await expectKeptLook(page, `cut-bone-report-${number}`, readFileSync(`${sheet}.png`));
   }
 });

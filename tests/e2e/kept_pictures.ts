@@ -54,8 +54,13 @@ export async function difference(page: Page, first: string, second: string): Pro
   );
 }
 
-/** Fails softly where the page does not look as it was kept; the small picture is returned. */
-export async function expectKeptLook(page: Page, name: string, png: Buffer): Promise<string> {
+/** Fails softly where more than `atMost` of the page does not look as it was kept; the small picture is returned. */
+export async function expectKeptLook(
+  page: Page,
+  name: string,
+  png: Buffer,
+  atMost: number = differsAtMost,
+): Promise<string> {
   const now = await small(page, png.toString('base64'));
   const file = join(folder, `${name}.png`);
   if (keepsNew) {
@@ -66,6 +71,6 @@ export async function expectKeptLook(page: Page, name: string, png: Buffer): Pro
   expect.soft(existsSync(file), `${name} has no kept picture: run with REAM_NEW_PICTURES=1, and look at it`).toBe(true);
   if (!existsSync(file)) return now;
   const differs = await difference(page, now, readFileSync(file).toString('base64'));
-  expect.soft(differs, `${name} looks otherwise than tests/e2e/pictures/${name}.png`).toBeLessThan(differsAtMost);
+  expect.soft(differs, `${name} looks otherwise than tests/e2e/pictures/${name}.png`).toBeLessThan(atMost);
   return now;
 }
