@@ -5,6 +5,7 @@
 #include "api/request_values.hpp"
 #include "api/routes.hpp"
 #include "api/services.hpp"
+#include "core/folder_listing.hpp"
 #include "core/log.hpp"
 #include "core/text.hpp"
 #include "ct/build/ct_workspace.hpp"
@@ -22,10 +23,8 @@ bool is_case(const fs::path& folder, const std::string& id) {
 
 std::vector<fs::path> case_folders(const fs::path& folder) {
   std::vector<fs::path> list;
-  std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(folder, failed))
-    if (is_case(folder, entry.path().filename().string())) list.push_back(entry.path());
-  std::sort(list.begin(), list.end());
+  for (const fs::path& path : paths_in(folder))
+    if (is_case(folder, path.filename().string())) list.push_back(path);
   return list;
 }
 

@@ -1,4 +1,6 @@
 #include "api/server.hpp"
+#include "core/log.hpp"
+#include "core/process_memory.hpp"
 #include "core/temporary_file.hpp"
 
 #include <contract.hpp>
@@ -83,12 +85,14 @@ Server::Server(ServerOptions options)
       readiness_(*engine_, options.make_demo_case),
       database_watch_(database_),
       watch_(sessions_, *feed_),
-      unused_("sessions that nobody starts or that stay paused, and uploads that nobody goes on with",
-              [this] {
-                sessions_.end_unused();
-                uploads_.remove_idle();
-                return std::chrono::seconds(5);
-              }) {}
+      unused_(
+          "sessions that nobody starts or that stay paused, and uploads that nobody goes on with", [this] {
+            if (keep_memory_reserve())
+              log::warn("memory ran out, and what was kept back for that was used; give this machine more");
+            sessions_.end_unused();
+            uploads_.remove_idle();
+            return std::chrono::seconds(5);
+          }) {}
 
 Server::~Server() { stop(); }
 

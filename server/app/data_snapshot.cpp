@@ -3,9 +3,13 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <optional>
 
 #include "app/restore_backup.hpp"
 #include "core/error.hpp"
+#include "core/folder_listing.hpp"
 #include "core/log.hpp"
 #include "session/folder/session_folder.hpp"
 
@@ -16,8 +20,23 @@ namespace fs = std::filesystem;
 
 constexpr int max_attempts = 5;
 
+/// What is no part of the data; file systems put lost+found where they are mounted.
 bool passing(const std::string& name) {
-  return name.front() == '.' || name.ends_with(".tmp") || name == "lock";
+  return name.front() == '.' || name.ends_with(".tmp") || name == "lock" || name == "lost+found";
+}
+
+Error cannot_look_at(const fs::path& path, int why) {
+  return {ErrorKind::io, "cannot look at " + path.string() + ": " + std::strerror(why)};
+}
+
+/// What is at the path, links followed; nothing where it has gone.
+std::optional<struct stat> status_of(const fs::path& path) {
+  struct stat about {};
+  if (::stat(path.c_str(), &about) == 0) return about;
+  const int why = errno;
+  std::error_code failed;
+  if (why == ENOENT && !fs::is_symlink(fs::symlink_status(path, failed))) return std::nullopt;
+  throw cannot_look_at(path, why);
 }
 
 /// A file as it is now: its number changes when it is replaced.
@@ -30,21 +49,24 @@ struct Seen {
   bool operator==(const Seen& other) const { return name == other.name && number == other.number; }
 };
 
+void look_in(const fs::path& folder, const std::string& place, std::vector<Seen>& found) {
+  for (const fs::path& path : paths_in(folder)) {
+    const std::string name = path.filename().string();
+    if (passing(name) || name.find('\\') != std::string::npos) continue;
+    struct stat about {};
+    if (::lstat(path.c_str(), &about) != 0) {
+      if (errno == ENOENT) continue;
+      throw cannot_look_at(path, errno);
+    }
+    if (S_ISREG(about.st_mode)) found.push_back({place + name, about.st_ino, about.st_size});
+    if (S_ISDIR(about.st_mode)) look_in(path, place + name + "/", found);
+  }
+}
+
 /// All files below `folder`, sorted; none when it has gone.
 std::vector<Seen> look(const fs::path& folder) {
   std::vector<Seen> found;
-  std::error_code failed;
-  for (fs::recursive_directory_iterator next(folder, failed), end; !failed && next != end;
-       next.increment(failed)) {
-    const std::string name = next->path().filename().string();
-    if (passing(name) || name.find('\\') != std::string::npos) {
-      next.disable_recursion_pending();
-      continue;
-    }
-    struct stat about {};
-    if (::lstat(next->path().c_str(), &about) == 0 && S_ISREG(about.st_mode))
-      found.push_back({next->path().lexically_relative(folder).string(), about.st_ino, about.st_size});
-  }
+  look_in(folder, "", found);
   std::sort(found.begin(), found.end(), [](const Seen& a, const Seen& b) { return a.name < b.name; });
   return found;
 }
@@ -90,33 +112,30 @@ bool is_live(const fs::path& session_folder) {
 
 std::vector<std::string> kept_folders(const fs::path& data) {
   std::vector<std::string> names;
-  std::error_code failed, ignored;
-  for (fs::directory_iterator next(data, failed), end; !failed && next != end; next.increment(failed)) {
-    const std::string name = next->path().filename().string();
-    if (!passing(name) && name != "uploads" && !name.starts_with(moved_aside) && next->is_directory(ignored))
-      names.push_back(name);
+  for (const fs::path& path : paths_in(data)) {
+    const std::string name = path.filename().string();
+    if (passing(name) || name == "uploads" || name.starts_with(moved_aside)) continue;
+    if (const auto status = status_of(path); status && S_ISDIR(status->st_mode)) names.push_back(name);
   }
-  std::sort(names.begin(), names.end());
   return names;
 }
 
 DataSnapshot snapshot_data(const fs::path& data, const fs::path& into) {
   DataSnapshot snapshot;
   for (const std::string& kept : kept_folders(data)) {
-    std::error_code failed;
-    for (fs::directory_iterator next(data / kept, failed), end; !failed && next != end;
-         next.increment(failed)) {
-      const std::string name = next->path().filename().string();
+    for (const fs::path& path : paths_in(data / kept)) {
+      const std::string name = path.filename().string();
       if (passing(name)) continue;
       const std::string place = kept + "/" + name;
-      const bool folder = next->is_directory();
-      const bool live = kept == "sessions" && is_live(next->path());
-      if (folder) {
-        const std::vector<Seen> files = hold_all(next->path(), into / place);
+      const auto status = status_of(path);
+      if (!status) continue;
+      const bool live = kept == "sessions" && is_live(path);
+      if (S_ISDIR(status->st_mode)) {
+        const std::vector<Seen> files = hold_all(path, into / place);
         for (const Seen& file : files)
           snapshot.files.push_back({into / place / file.name, place + "/" + file.name, file.bytes});
         if (files.empty()) continue;
-      } else if (next->is_regular_file() && hold(next->path(), into / place)) {
+      } else if (S_ISREG(status->st_mode) && hold(path, into / place)) {
         snapshot.files.push_back({into / place, place});
       } else {
         continue;

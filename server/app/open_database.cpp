@@ -52,7 +52,7 @@ std::string database_url(const std::string& chosen, const fs::path& data) {
 std::shared_ptr<store::Database> open_database(const std::string& chosen, const fs::path& data) {
   const std::string url = database_url(chosen, data);
   if (url == default_url(data)) make_data_folder(data);
-  if (const fs::path kept = store::keep_before_migration(url); !kept.empty())
+  if (const fs::path kept = store::keep_before_migration(url, data); !kept.empty())
     log::info("the database is brought up to date; as it was, it is kept in " + kept.string());
   return std::make_shared<store::Database>(url);
 }

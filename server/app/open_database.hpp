@@ -13,7 +13,8 @@ namespace ream::app {
 /// the folder. Error usage for a password on the command line, where everybody on the machine can read it.
 std::string database_url(const std::string& chosen, const std::filesystem::path& data);
 
-/// Opens it. The data folder is made if the database is there. Errors are those of store::Database, too.
+/// Opens it. An older one is copied first (store::keep_before_migration). The data folder is made if the
+/// database or the copy lies there. Errors are those of store::Database, too.
 std::shared_ptr<store::Database> open_database(const std::string& chosen, const std::filesystem::path& data);
 
 /// Whoever may run commands on the data folder, as the audit log has them.

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/file_lock.hpp"
+#include "core/folder_listing.hpp"
 #include "core/json.hpp"
 #include "session/folder/recorded_annotations.hpp"
 #include "session/folder/session_folder.hpp"
@@ -39,8 +40,10 @@ bool is_of(const access::User& user, const session::SessionRequest& request) {
 /// What restoring has moved aside in the data folder.
 std::vector<fs::path> folders_aside(const fs::path& data) {
   std::vector<fs::path> folders;
-  for (const auto& entry : fs::directory_iterator(data))
-    if (entry.path().filename().string().starts_with(moved_aside)) folders.push_back(entry.path());
+  std::error_code gone;
+  for (const fs::path& path : paths_in(data))
+    if (path.filename().string().starts_with(moved_aside) && fs::is_directory(path, gone))
+      folders.push_back(path);
   return folders;
 }
 
@@ -49,10 +52,8 @@ std::vector<fs::path> session_folders(const fs::path& data) {
   std::vector<fs::path> found, places{data};
   for (const fs::path& aside : folders_aside(data)) places.push_back(aside);
   for (const fs::path& place : places)
-    for (const fs::path& sessions : {sessions_folder(place), place / "trash"}) {
-      std::error_code failed;
-      for (const auto& entry : fs::directory_iterator(sessions, failed)) found.push_back(entry.path());
-    }
+    for (const fs::path& sessions : {sessions_folder(place), place / "trash"})
+      for (const fs::path& session : paths_in(sessions)) found.push_back(session);
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -63,7 +64,8 @@ std::map<fs::path, session::SessionRequest> sessions_of(const access::User& user
   for (const fs::path& folder : session_folders(data)) try {
       const session::SessionRecord record = session::read_session_folder(folder);
       if (is_of(user, record.request)) found.emplace(folder, record.request);
-    } catch (const Error&) {  // no session, or one that nobody can read
+    } catch (const Error& failure) {
+      if (failure.kind() == ErrorKind::io) throw;  // whose it is cannot be told; others are no session
     }
   return found;
 }
@@ -98,11 +100,10 @@ void forget_rows(const fs::path& file, const access::User& user) {
 
 void forget_aside(const fs::path& data, const access::User& user, ForgetReport& report) {
   for (const fs::path& aside : folders_aside(data)) {
-    std::error_code failed;
-    for (const auto& entry : fs::directory_iterator(aside / "tables", failed)) try {
-        forget_rows(entry.path(), user);
+    for (const fs::path& table : paths_in(aside / "tables")) try {
+        forget_rows(table, user);
       } catch (const std::exception& failure) {
-        report.left.push_back(entry.path().string() + ": " + failure.what());
+        report.left.push_back(table.string() + ": " + failure.what());
       }
   }
 }
@@ -201,6 +202,9 @@ ForgetReport forget_person(store::Database& database, access::AccessControl& acc
 
 json export_person(store::Database& database, const access::AccessControl& access_control,
                    const fs::path& data, const access::User& user) {
+  std::error_code failed;
+  if (!fs::is_directory(data, failed))
+    throw Error(ErrorKind::not_found, "there is no data folder " + data.string() + "; see --data");
   json sessions = json::array();
   for (const auto& [folder, request] : sessions_of(user, data)) {
     json labels = session::labels_json(request);

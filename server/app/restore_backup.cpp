@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/file_lock.hpp"
+#include "core/folder_listing.hpp"
 #include "core/temporary_file.hpp"
 #include "core/utc.hpp"
 #include "store/table_files.hpp"
@@ -23,10 +24,11 @@ constexpr double unpacked_share = 0.8;
 
 uint64_t files_below(const fs::path& folder) {
   uint64_t count = 0;
-  std::error_code failed;
-  for (fs::recursive_directory_iterator next(folder, failed), end; !failed && next != end;
-       next.increment(failed))
-    if (next->is_regular_file()) ++count;
+  for (const fs::path& path : paths_in(folder)) {
+    const fs::file_type type = fs::symlink_status(path).type();
+    if (type == fs::file_type::regular) ++count;
+    if (type == fs::file_type::directory) count += files_below(path);
+  }
   return count;
 }
 
@@ -134,8 +136,7 @@ void replace(store::Database& database, const fs::path& unpacked, const std::vec
 RestoreReport report_of(const BackupManifest& manifest, const fs::path& data, const fs::path& aside) {
   RestoreReport report;
   report.aside = aside;
-  for (const std::string& name : kept_folders(data))
-    report.counts[name] = static_cast<size_t>(std::distance(fs::directory_iterator(data / name), {}));
+  for (const std::string& name : kept_folders(data)) report.counts[name] = paths_in(data / name).size();
   for (const store::TableFile& table : manifest.tables) report.rows += table.rows;
   return report;
 }

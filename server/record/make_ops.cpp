@@ -57,7 +57,7 @@ void check(const json& manifest) {
     if (code < 1 || code > 255 || !codes.insert(code).second)
       throw std::runtime_error("op " + name + " needs a code of its own in 1..255");
     if (!names.insert(name).second) throw std::runtime_error("two ops are called " + name);
-    std::set<std::string> fields{"code", "name", "columns", "visit_fields"};  // taken by the structure
+    std::set<std::string> fields{"code", "name", "columns", "field_names", "visit_fields"};  // taken
     for (const json& field : op.at("fields")) {
       const std::string what = name + "." + field.at("name").get<std::string>();
       if (!fields.insert(field.at("name")).second) throw std::runtime_error(what + " is taken already");
@@ -92,13 +92,17 @@ void write_op(std::ostream& out, const json& op) {
   for (const json& field : op.at("fields"))
     out << "    visit(self." << field.at("name").get<std::string>() << ", uint32_t{"
         << field.value("since", 1) << "});\n";
-  out << "  }\n};\n\n";
+  out << "  }\n\n  /// In the same order.\n  static constexpr std::array<std::string_view, "
+      << op.at("fields").size() << "> field_names{";
+  for (const json& field : op.at("fields"))
+    out << (field == op.at("fields").front() ? "" : ", ") << field.at("name");
+  out << "};\n};\n\n";
 }
 
 std::string header_text(const json& manifest) {
   std::ostringstream out;
-  out << "// Made from proto/recording.json; change that.\n#pragma once\n#include <cstdint>\n#include "
-         "<string>\n"
+  out << "// Made from proto/recording.json; change that.\n#pragma once\n#include <array>\n#include "
+         "<cstdint>\n#include <string>\n"
       << "#include <string_view>\n\n#include \"record/op_fields.hpp\"\n\nnamespace ream::record::ops {\n\n"
       << "/// Of the format as this build writes it.\ninline constexpr uint32_t newest_revision = "
       << manifest.at("revision") << ";\n\n";

@@ -1,64 +1,50 @@
 #include "record/tick_difference.hpp"
 
+#include <algorithm>
 #include <array>
-#include <bit>
 #include <concepts>
+#include <cstring>
 #include <sstream>
 
 #include "core/hash.hpp"
-#include "geometry/pose.hpp"
 
 namespace ream::record {
 namespace {
 
 using ops::Tick;
 
-/// A column of numbers or poses.
-template <typename Value>
-struct Column {
-  const char *kind, *name;
-  Value Tick::*value;
-  bool is_vibration = false;
+/// What a field tells of, and when it is compared: the lowest place first.
+struct Subject {
+  std::string_view beginning;  ///< of the field's name
+  const char* kind;
+  int place;
+  bool has_vibration = false;
 };
 
-constexpr std::array<Column<QuantisedPose>, 3> poses{
-    {{"pose", "world_from_handle", &Tick::world_from_handle},
-     {"pose", "grid_from_tool", &Tick::grid_from_tool},
-     {"pose", "world_from_bone_rest", &Tick::world_from_bone_rest}}};
+constexpr std::array subjects{Subject{"tick", "order", 0},
+                              Subject{"world_from_", "pose", 1},
+                              Subject{"grid_from_", "pose", 1},
+                              Subject{"removed_", "bone", 2},
+                              Subject{"changed_bricks", "bone", 2},
+                              Subject{"engaged_points", "contact", 2},
+                              Subject{"session_hash", "bone", 3},
+                              Subject{"surface_temperature_", "heat", 4},
+                              Subject{"feed_rate_", "contact", 4},
+                              Subject{"density_", "contact", 4},
+                              Subject{"share_", "contact", 4},
+                              Subject{"vibration_", "vibration", 5, true},
+                              Subject{"hand_vibration_", "vibration", 6, true},
+                              Subject{"hand_force_", "force", 7, true},
+                              Subject{"flags", "contact", 8},
+                              Subject{"", "force", 4}};
 
-constexpr std::array<Column<int32_t>, 3> removed_columns{
-    {{"bone", "removed_cancellous", &Tick::removed_cancellous},
-     {"bone", "removed_cortical", &Tick::removed_cortical},
-     {"bone", "removed_cartilage", &Tick::removed_cartilage}}};
+const Subject& subject_of(std::string_view field) {
+  return *std::find_if(subjects.begin(), subjects.end(),
+                       [&](const Subject& subject) { return field.starts_with(subject.beginning); });
+}
 
-constexpr std::array<Column<uint32_t>, 2> counts{{{"bone", "changed_bricks", &Tick::changed_bricks},
-                                                  {"contact", "engaged_points", &Tick::engaged_points}}};
-
-constexpr std::array<Column<float>, 21> results{
-    {{"force", "thrust_n", &Tick::thrust_n},
-     {"force", "torque_n_mm", &Tick::torque_n_mm},
-     {"force", "spindle_torque_n_mm", &Tick::spindle_torque_n_mm},
-     {"force", "guide_force_n", &Tick::guide_force_n},
-     {"force", "spindle_speed_rad_s", &Tick::spindle_speed_rad_s},
-     {"heat", "surface_temperature_c", &Tick::surface_temperature_c},
-     {"contact", "feed_rate_mm_s", &Tick::feed_rate_mm_s},
-     {"contact", "density_g_cc", &Tick::density_g_cc},
-     {"contact", "share_cancellous", &Tick::share_cancellous},
-     {"contact", "share_cortical", &Tick::share_cortical},
-     {"contact", "share_cartilage", &Tick::share_cartilage},
-     {"force", "hand_torque_x_n_mm", &Tick::hand_torque_x_n_mm},
-     {"force", "hand_torque_y_n_mm", &Tick::hand_torque_y_n_mm},
-     {"force", "hand_torque_z_n_mm", &Tick::hand_torque_z_n_mm},
-     {"vibration", "vibration_g", &Tick::vibration_g, true},
-     {"vibration", "hand_vibration_x_n", &Tick::hand_vibration_x_n, true},
-     {"vibration", "hand_vibration_y_n", &Tick::hand_vibration_y_n, true},
-     {"vibration", "hand_vibration_z_n", &Tick::hand_vibration_z_n, true},
-     {"force", "hand_force_x_n", &Tick::hand_force_x_n, true},
-     {"force", "hand_force_y_n", &Tick::hand_force_y_n, true},
-     {"force", "hand_force_z_n", &Tick::hand_force_z_n, true}}};
-
+std::string words(uint64_t hash) { return to_hex(hash); }
 std::string words(std::integral auto value) { return std::to_string(value); }
-
 std::string words(float value) {
   std::ostringstream text;
   text.precision(9);
@@ -66,48 +52,44 @@ std::string words(float value) {
   return text.str();
 }
 
-/// The part of a pose that differs, in its own units.
-Difference pose_difference(const Column<QuantisedPose>& column, const QuantisedPose& recorded,
-                           const QuantisedPose& found) {
-  constexpr const char* axes[3] = {".x_nm", ".y_nm", ".z_nm"};
-  for (size_t i = 0; i < 3; ++i)
-    if (recorded.translation_nm[i] != found.translation_nm[i])
-      return {column.kind, std::string(column.name) + axes[i], words(recorded.translation_nm[i]),
-              words(found.translation_nm[i])};
-  size_t i = 0;
-  while (i < 8 && recorded.rotation_q30[i] == found.rotation_q30[i]) ++i;
-  return {column.kind, std::string(column.name) + ".rotation_q30[" + std::to_string(i) + "]",
-          words(recorded.rotation_q30[i]), words(found.rotation_q30[i])};
+template <typename Number>
+Difference difference_of(const char* kind, const std::string& name, const Number& recorded,
+                         const Number& found) {
+  return {kind, name, words(recorded), words(found)};
 }
 
-template <size_t Count, typename Value>
-std::optional<Difference> number_difference(const std::array<Column<Value>, Count>& columns,
-                                            const Tick& recorded, const Tick& found, Columns compared) {
-  for (const Column<Value>& column : columns) {
-    if (column.is_vibration && compared == Columns::without_vibration) continue;
-    const Value a = recorded.*column.value, b = found.*column.value;
-    if (std::bit_cast<uint32_t>(a) != std::bit_cast<uint32_t>(b))
-      return Difference{column.kind, column.name, words(a), words(b)};
-  }
-  return std::nullopt;
+/// The part of a pose that differs, in its own units.
+Difference difference_of(const char* kind, const std::string& name, const QuantisedPose& recorded,
+                         const QuantisedPose& found) {
+  for (size_t i = 0; i < 3; ++i)
+    if (const int32_t a = recorded.translation_nm[i], b = found.translation_nm[i]; a != b)
+      return difference_of(kind, name + "." + "xyz"[i] + "_nm", a, b);
+  size_t i = 0;
+  while (i < 8 && recorded.rotation_q30[i] == found.rotation_q30[i]) ++i;
+  return difference_of(kind, name + ".rotation_q30[" + std::to_string(i) + "]", recorded.rotation_q30[i],
+                       found.rotation_q30[i]);
 }
 
 }  // namespace
 
 std::optional<Difference> first_difference(const Tick& recorded, const Tick& found, Columns columns) {
-  if (recorded.tick != found.tick)
-    return Difference{"order", "tick", words(recorded.tick), words(found.tick)};
-  for (const auto& column : poses)
-    if (const auto& a = recorded.*column.value, &b = found.*column.value; a != b)
-      return pose_difference(column, a, b);
-  if (auto difference = number_difference(removed_columns, recorded, found, columns)) return difference;
-  if (auto difference = number_difference(counts, recorded, found, columns)) return difference;
-  if (recorded.session_hash != found.session_hash)
-    return Difference{"bone", "session_hash", to_hex(recorded.session_hash), to_hex(found.session_hash)};
-  if (auto difference = number_difference(results, recorded, found, columns)) return difference;
-  if (recorded.flags != found.flags)
-    return Difference{"contact", "flags", words(recorded.flags), words(found.flags)};
-  return std::nullopt;
+  std::optional<Difference> first;
+  size_t at = 0;
+  int place = 0;  ///< of the first
+  Tick::visit_fields(recorded, [&]<typename Field>(const Field& a, uint32_t) {
+    const std::string_view name = Tick::field_names[at++];
+    const auto offset =
+        reinterpret_cast<const std::byte*>(&a) - reinterpret_cast<const std::byte*>(&recorded);
+    Field b;
+    std::memcpy(&b, reinterpret_cast<const std::byte*>(&found) + offset, sizeof b);
+    if (std::memcmp(&a, &b, sizeof a) == 0) return;
+    const Subject& subject = subject_of(name);
+    if (first && subject.place >= place) return;
+    if (subject.has_vibration && columns == Columns::without_vibration) return;
+    place = subject.place;
+    first = difference_of(subject.kind, std::string(name), a, b);
+  });
+  return first;
 }
 
 }  // namespace ream::record

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cstring>
 
-#include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "record/trace_columns.hpp"
@@ -63,10 +62,7 @@ const std::string& TraceCsv::header_line() {
 }
 
 TraceCsv::TraceCsv(const std::filesystem::path& path, double voxel_volume_mm3, const Pose& plan_from_world)
-    : path_(path),
-      temporary_(path.string() + ".tmp"),
-      voxel_volume_mm3_(voxel_volume_mm3),
-      plan_from_world_(plan_from_world) {
+    : path_(path), temporary_(path.string() + ".tmp"), values_(voxel_volume_mm3, plan_from_world) {
   file_ = std::fopen(temporary_.c_str(), "wb");
   if (file_ == nullptr) fail_to_write_trace(path_);
   std::fprintf(file_, "%s\n", header_line().c_str());
@@ -78,27 +74,9 @@ TraceCsv::~TraceCsv() {
   ::unlink(temporary_.c_str());
 }
 
-void TraceCsv::pass(const TickReport& r) {
-  for (const int64_t removed : r.coverage_removed) coverage_removed_ += removed;
-}
-
-void TraceCsv::add(const TickReport& r) {
-  pass(r);
+void TraceCsv::add(const TickReport& report) {
   Row row;
-  row.add(static_cast<double>(r.tick) * tick_s).add(r.world_from_handle).add(r.world_from_tool);
-  row.add(static_cast<int64_t>(r.spindle_on)).add(static_cast<int64_t>(r.paused));
-  row.add(r.thrust_n).add(r.hand_force_n).add(r.torque_n_mm).add(r.spindle_torque_n_mm).add(r.guide_force_n);
-  row.add(r.vibration_g).add(static_cast<int64_t>(r.weakened));
-  row.add(r.feed_rate_mm_s).add(r.density_g_cc);
-  row.add(r.share[0]).add(r.share[1]).add(r.share[2]).add(r.engaged_points);
-  row.add(static_cast<double>(coverage_removed_) / 255.0 * voxel_volume_mm3_);
-  row.add(r.world_from_bone_rest);
-  row.add(r.spindle_speed_rad_s)
-      .add(static_cast<int64_t>(r.stalled))
-      .add(static_cast<int64_t>(r.drive.irrigating));
-  row.add(r.surface_temperature_c);
-  const Pose bone_from_tool = r.world_from_bone_rest.inverse() * r.world_from_tool;
-  row.add((plan_from_world_ * bone_from_tool).translation_mm.z());
+  values_.add(report, row);
   row.write(file_);
 }
 

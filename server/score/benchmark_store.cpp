@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/folder_listing.hpp"
 #include "core/log.hpp"
 #include "core/new_id.hpp"
 #include "core/text.hpp"
@@ -66,10 +67,9 @@ KeptBenchmark BenchmarkStore::get(const std::string& id) const {
 
 std::vector<KeptBenchmark> BenchmarkStore::list() const {
   std::vector<KeptBenchmark> all;
-  std::error_code failed;
-  for (fs::directory_iterator next(folder_, failed), end; !failed && next != end; next.increment(failed)) {
-    const std::string id = next->path().stem().string();
-    if (next->path().extension() != ".json" || !is_name(id)) continue;
+  for (const fs::path& path : paths_in(folder_)) {
+    const std::string id = path.stem().string();
+    if (path.extension() != ".json" || !is_name(id)) continue;
     try {
       all.push_back(get(id));
     } catch (const Error& damage) {

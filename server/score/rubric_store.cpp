@@ -12,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/folder_listing.hpp"
 
 namespace ream::score {
 namespace fs = std::filesystem;
@@ -58,9 +59,9 @@ fs::path RubricStore::file(const std::string& id, int version) const {
 
 std::vector<std::string> RubricStore::ids() const {
   std::set<std::string> found = {standard_id};
-  std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(folder_, failed))
-    if (entry.is_directory(failed) && is_id(entry.path().filename())) found.insert(entry.path().filename());
+  std::error_code gone;
+  for (const fs::path& path : paths_in(folder_))
+    if (fs::is_directory(path, gone) && is_id(path.filename())) found.insert(path.filename());
   return {found.begin(), found.end()};
 }
 
@@ -68,11 +69,10 @@ std::vector<int> RubricStore::versions(const std::string& id) const {
   std::set<int> found;
   if (id == standard_id)
     for (const Rubric& shipped : standard_rubrics()) found.insert(shipped.version);
-  std::error_code failed;
   if (is_id(id))
-    for (const auto& entry : fs::directory_iterator(folder_ / id, failed))
-      if (entry.path().extension() == ".json")
-        if (const auto number = version_in(entry.path().stem())) found.insert(*number);
+    for (const fs::path& path : paths_in(folder_ / id))
+      if (path.extension() == ".json")
+        if (const auto number = version_in(path.stem())) found.insert(*number);
   if (found.empty()) {
     std::string names;
     for (const std::string& name : ids()) names += (names.empty() ? "" : ", ") + name;

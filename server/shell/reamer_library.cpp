@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/folder_listing.hpp"
 #include "core/json.hpp"
 #include "core/json_reader.hpp"
 #include "shell/parametric_profile.hpp"
@@ -13,14 +14,14 @@ namespace ream::shell {
 namespace fs = std::filesystem;
 namespace {
 
-const char* const nipple_words = " nipple 3,8";
+std::string nipple_words() { return " nipple 3,8"; }
 
 LibraryReamer convex(int radius_mm, int diameter_mm, bool cannulated) {
   LibraryReamer reamer;
   const std::string radius = std::to_string(radius_mm);
   reamer.name = (cannulated ? "cannulated-" : "convex-") + radius;
-  reamer.words =
-      "sphere " + radius + "," + std::to_string(diameter_mm / 2) + (cannulated ? "" : nipple_words);
+  reamer.words = "sphere " + radius + "," + std::to_string(diameter_mm / 2) +
+                 (cannulated ? std::string() : nipple_words());
   reamer.diameter_mm = diameter_mm;
   reamer.radius_mm = radius_mm;
   if (!cannulated) reamer.nipple = Nipple{};
@@ -41,7 +42,7 @@ std::vector<LibraryReamer> made_built_in() {
   for (const auto& [radius, diameter] : sizes) all.push_back(convex(radius, diameter, false));
   for (const auto& [radius, diameter] : sizes) all.push_back(convex(radius, diameter, true));
   all.push_back(
-      {"flat-30", std::string("sphere 1000,15") + nipple_words, 30.0, 1000.0, Nipple{}, false,
+      {"flat-30", "sphere 1000,15" + nipple_words(), 30.0, 1000.0, Nipple{}, false,
        "Nearly flat, for a component with a flat back (compared with convex ones by Karelse 2014)"});
   all.push_back({"baseplate-27", "sphere 60,13.5", 27.0, 60.0, std::nullopt, true,
                  "27 mm across on a guide pin, the size used for the base plate of reverse components; the "
@@ -138,10 +139,9 @@ LibraryReamer listed_mesh(const fs::path& mesh) {
 
 std::vector<fs::path> mesh_files(const fs::path& data_folder) {
   std::vector<fs::path> files;
-  std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(data_folder / "reamers", failed))
-    if (entry.is_regular_file(failed) && is_mesh_file(entry.path())) files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
+  std::error_code gone;
+  for (const fs::path& path : paths_in(data_folder / "reamers"))
+    if (fs::is_regular_file(path, gone) && is_mesh_file(path)) files.push_back(path);
   return files;
 }
 
@@ -166,10 +166,19 @@ std::string built_in_names() {
 
 std::vector<LibraryReamer> reamers_of(const fs::path& data_folder, std::vector<std::string>* warnings) {
   std::vector<LibraryReamer> all = built_in_reamers();
-  for (const fs::path& mesh : mesh_files(data_folder)) try {
+  const auto warn = [&](const std::string& what) {
+    if (warnings) warnings->push_back(what);
+  };
+  std::vector<fs::path> meshes;
+  try {
+    meshes = mesh_files(data_folder);
+  } catch (const Error& e) {
+    warn(std::string("reamers of the data folder are left out: ") + e.what());
+  }
+  for (const fs::path& mesh : meshes) try {
       all.push_back(listed_mesh(mesh));
     } catch (const Error& e) {
-      if (warnings) warnings->push_back(std::string("a reamer is left out: ") + e.what());
+      warn(std::string("a reamer is left out: ") + e.what());
     }
   return all;
 }

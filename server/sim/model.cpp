@@ -1,7 +1,7 @@
 #include "sim/model.hpp"
 
 #include "core/error.hpp"
-#include "core/huge_pages.hpp"
+#include "core/process_memory.hpp"
 #include "force/edge_load.hpp"
 #include "sim/cutting_surface.hpp"
 #include "sim/guided_handle.hpp"

@@ -2,11 +2,12 @@
 
 #include <pthread.h>
 #include <sched.h>
-#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <time.h>
 
 #include <algorithm>
+
+#include "core/process_memory.hpp"
 
 namespace ream::sim {
 namespace {
@@ -37,7 +38,7 @@ RealtimeGrant ask_for_realtime(Realtime mode, int cpu) noexcept {
   // All that the loop touches is there by now. Memory that comes later is not locked on purpose: it would be
   // what others read and build, up to gigabytes that the kernel could not put aside any more, and where
   // locked memory is limited, allocations of any thread would fail.
-  grant.locked = ::mlockall(MCL_CURRENT) == 0;
+  grant.locked = lock_memory();
   if (cpu >= 0 && pin_to(cpu)) grant.cpu = cpu;
   return grant;
 }

@@ -1,10 +1,6 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <memory>
-#include <optional>
-#include <utility>
-#include <vector>
 
 #include "collide/removal/removal_schedule.hpp"
 #include "force/heat.hpp"
@@ -24,31 +20,14 @@ struct ResumeState {
   uint64_t session_hash = 0;
 };
 
-/// Everything that a tick changes. Owned by the haptic thread once the session runs.
-struct State {
-  State(const Model& model, voxel::BoneModel& bone, const ResumeState& from = {});
+/// What a tick leaves to the next, the bone apart. With the bone as it was then, a copy is a moment that a
+/// session can go back to.
+struct Moment {
+  Moment(const Model& model, const voxel::BoneModel& bone, const ResumeState& from);
 
-  voxel::BoneModel& bone;
-  voxel::SolidCells cells;  ///< what of the bone is left; follows every cut
-  Backend backend;
-  /// The C++ form, ready in case the device of `backend` fails; empty parts when `backend` is it already.
-  Backend reserve;
-  /// The tick in which the reserve took over. Set before the first tick it repeats a recorded failure: the
-  /// hand feels nothing in that tick, and no other device may fail.
-  int64_t failed_over_tick = -1;
   collide::RemovalSchedule schedule;
-  std::array<collide::BrickOutcome, collide::RemovalSchedule::max_bricks_per_tick> outcomes;
-  std::array<uint32_t, collide::RemovalSchedule::max_bricks_per_tick> changed;  ///< bricks of the last cut
-  size_t changed_count = 0;
-  voxel::BrickSender* brick_sender = nullptr;  ///< followers, where there are any; not owned
-  int brick_budget = 256;                      ///< images sent a tick
-
-  /// The input's pose is the handle's from the first tick to the last, also where a virtual mass would
-  /// otherwise fly under the hand's force: of recorded causes.
-  bool handle_given = false;
-
   bool started = false;  ///< the tool has been put at the handle
-  uint32_t tick = 0;
+  uint32_t tick = 0;     ///< the next
   Pose world_from_tool;
   /// Whatever way the tool moves, as far as this no point of it meets bone (mm). 0: it touches nothing where
   /// it stands; negative: nobody has looked there yet.
@@ -74,6 +53,31 @@ struct State {
   Pose world_from_bone_rest;  ///< how far the bone has moved from where the case has it
   Pose world_from_grid;       ///< of the bone where it is now; the grid's own is where it rests
   uint64_t session_hash = 0;
+};
+
+/// Everything that a tick changes, and what computes it. Owned by the haptic thread once the session runs.
+struct State : Moment {
+  State(const Model& model, voxel::BoneModel& bone, const ResumeState& from = {});
+  /// Goes on from a moment of a session with this model. `bone`: as it was then.
+  State(const Model& model, voxel::BoneModel& bone, const Moment& from);
+
+  voxel::BoneModel& bone;
+  voxel::SolidCells cells;  ///< what of the bone is left; follows every cut
+  Backend backend;
+  /// The C++ form, ready in case the device of `backend` fails; empty parts when `backend` is it already.
+  Backend reserve;
+  /// The tick in which the reserve took over. Set before the first tick it repeats a recorded failure: the
+  /// hand feels nothing in that tick, and no other device may fail.
+  int64_t failed_over_tick = -1;
+  std::array<collide::BrickOutcome, collide::RemovalSchedule::max_bricks_per_tick> outcomes;
+  std::array<uint32_t, collide::RemovalSchedule::max_bricks_per_tick> changed;  ///< bricks of the last cut
+  size_t changed_count = 0;
+  voxel::BrickSender* brick_sender = nullptr;  ///< followers, where there are any; not owned
+  int brick_budget = 256;                      ///< images sent a tick
+
+  /// The input's pose is the handle's from the first tick to the last, also where a virtual mass would
+  /// otherwise fly under the hand's force: of recorded causes.
+  bool handle_given = false;
 };
 
 using record::TickReport;

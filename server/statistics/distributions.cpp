@@ -14,7 +14,6 @@
 namespace ream::statistics {
 namespace bm = boost::math;
 
-double normal_density(double z) { return bm::pdf(bm::normal(), z); }
 double normal_quantile(double p) { return bm::quantile(bm::normal(), p); }
 double two_sided_normal_p(double z) { return 2.0 * bm::cdf(bm::normal(), -std::abs(z)); }
 

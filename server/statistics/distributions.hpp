@@ -6,7 +6,6 @@ namespace ream::statistics {
 /// Distributions of Boost.Math. Degrees of freedom may be fractions; they are over 0. Probabilities that go
 /// into a quantile lie between 0 and 1, both excluded.
 
-double normal_density(double z);
 double normal_quantile(double p);
 /// Chance of a normal deviate farther from 0 than `z` is.
 double two_sided_normal_p(double z);

@@ -33,6 +33,8 @@ std::vector<Row> collide_suite(const Options& options);
 std::vector<Row> hostile_suite(const Options& options);
 /// Whether the haptic loop is on time in a served session.
 std::vector<Row> loop_suite(const Options& options);
+/// The package for Python beside the program.
+std::vector<Row> python_suite(const Options& options);
 /// What recording costs, and how soon any moment of a recording opens.
 std::vector<Row> record_suite(const Options& options);
 /// Whether requests disturb the haptic loop of a served session.

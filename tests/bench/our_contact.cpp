@@ -2,7 +2,7 @@
 
 #include "collide/contact/narrow_phase_cl.hpp"
 #include "core/error.hpp"
-#include "core/huge_pages.hpp"
+#include "core/process_memory.hpp"
 
 namespace ream::bench {
 

@@ -8,7 +8,7 @@
 #include "bench/baselines/zheng.hpp"
 #include "bench/glenoid_block.hpp"
 #include "bench/memory.hpp"
-#include "core/huge_pages.hpp"
+#include "core/process_memory.hpp"
 
 namespace ream::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include "bench/collide_parts.hpp"
 #include "bench/depth_of_share.hpp"
 #include "bench/our_contact.hpp"
-#include "core/huge_pages.hpp"
+#include "core/process_memory.hpp"
 #include "sim/model.hpp"
 
 namespace ream::bench {

@@ -7,6 +7,7 @@
 #include "bench/bench.hpp"
 #include "bench/machine_rows.hpp"
 #include "bench/pecking.hpp"
+#include "bench/script_figures.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "ct/phantom/phantom_case.hpp"
@@ -32,23 +33,16 @@ void keep_glenoid(const fs::path& data, const std::string& id, double spacing_mm
   case_::save_case(ct::make_phantom_case(id, preset.params, upsample), cases_folder(data) / id);
 }
 
-std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
-
 /// What the script found, measuring the page of the program beside this one.
 json measured(const fs::path& data) {
   const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "ream";
   const fs::path script = REAM_BENCH_WEB_SCRIPT;
-  const std::string command = "REAM_BIN=" + quoted(program) + " node " + quoted(script) + " " + quoted(data);
-  FILE* pipe = ::popen(command.c_str(), "r");
-  if (!pipe) throw Error(ErrorKind::unavailable, "cannot run " + command);
-  std::string told;
-  std::array<char, 4096> part;
-  while (const size_t count = ::fread(part.data(), 1, part.size(), pipe)) told.append(part.data(), count);
-  if (::pclose(pipe) != 0)
-    throw Error(ErrorKind::unavailable,
-                "the page could not be measured, see above; it takes node, Chromium (REAM_CHROMIUM) and a "
-                "built page (scripts/build)");
-  return json::parse(told);
+  const std::string command =
+      "REAM_BIN=" + shell_word(program) + " node " + shell_word(script) + " " + shell_word(data);
+  return script_figures(
+      command,
+      "the page could not be measured, see above; it takes node, Chromium (REAM_CHROMIUM) and a "
+      "built page (scripts/build)");
 }
 
 /// What the page is held to.

@@ -42,6 +42,7 @@ void add_audit_command(CLI::App& app, GlobalOptions& options);
 void add_user_command(CLI::App& app, GlobalOptions& options);
 void add_backup_command(CLI::App& app, GlobalOptions& options);
 void add_restore_command(CLI::App& app, GlobalOptions& options);
+void add_verify_release_command(CLI::App& app, GlobalOptions& options);
 void add_bench_command(CLI::App& app, GlobalOptions& options);
 /// Knows all commands that `app` has when it runs.
 void add_completion_command(CLI::App& app);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <thread>
 
 #include "app/cli/serve_options.hpp"
@@ -16,10 +17,11 @@
 #include "core/error.hpp"
 #include "core/file_lock.hpp"
 #include "gpu/device.hpp"
-#include "isolation/reader_process.hpp"
+#include "isolation/isolated_job.hpp"
 #include "isolation/sandbox.hpp"
 #include "net/listener.hpp"
 #include "net/router.hpp"
+#include "render/snapshot.hpp"
 #include "sim/realtime.hpp"
 #include "store/database_url.hpp"
 #include "store/migrations.hpp"
@@ -45,18 +47,46 @@ Finding examine_page(const DoctorRequest& request) {
   return {"page", State::good, "The page is in " + folder.string() + ".", ""};
 }
 
+/// A fault where the program is not there; `where` is what comes before its path.
+std::optional<Finding> missing_helper(const char* subject, const char* name, const std::string& where) {
+  const fs::path program = isolation::helper_program(name);
+  if (::access(program.c_str(), X_OK) == 0) return std::nullopt;
+  return Finding{subject, State::fault, where + program.string() + ".",
+                 "install ream again, or run scripts/build"};
+}
+
 Finding examine_reader(const DoctorRequest& /*request*/) {
-  const fs::path program = isolation::reader_program();
-  if (::access(program.c_str(), X_OK) != 0)
-    return {"reader", State::fault,
-            "The program that reads files from outside is not at " + program.string() + ".",
-            "install ream again, or run scripts/build"};
+  if (auto missing = missing_helper("reader", isolation::reader_name,
+                                    "The program that reads files from outside is not at "))
+    return *missing;
   const isolation::SandboxSupport support = isolation::sandbox_support();
   if (support.landlock > 0 && support.seccomp)
     return {"reader", State::good, "Files from outside are read in a closed process.", ""};
   return {
       "reader", State::remark, isolation::sandbox_in_words(support),
       "use a kernel of 5.13 or newer, with landlock among its security modules (lsm=landlock,... at boot)"};
+}
+
+Finding examine_pictures(const DoctorRequest& /*request*/) {
+  if (auto missing =
+          missing_helper("pictures", isolation::renderer_name, "The program that draws pictures is not at "))
+    return *missing;
+  // A triangle before the camera: only for one the driver compiles what it draws with.
+  const TriangleMesh triangle{{Vec3f(1, -1, -1), Vec3f(1, 1, -1), Vec3f(1, 0, 2)}, {{0, 1, 2}}, {}};
+  const auto middle = [](const std::vector<render::Layer>& layers) {
+    const render::Image image = render::draw(layers, {}, 3, 3);
+    return std::vector<uint8_t>(image.rgba.begin() + 4 * 4, image.rgba.begin() + 4 * 5);
+  };
+  try {
+    if (middle({{&triangle, {}, {0, 0, 0}, 1.0f, nullptr}}) != middle({}))
+      return {"pictures", State::good, "Pictures for reports can be drawn.", ""};
+    return {"pictures", State::remark, "Pictures for reports come out empty.",
+            "try another version of libosmesa6"};
+  } catch (const Error& e) {
+    return {"pictures", State::remark, std::string("Reports have no pictures: ") + e.what() + ".",
+            "see that temporary files can be written, and that nothing forbids programs to run code that "
+            "they make"};
+  }
 }
 
 /// The nearest folder above that is there.
@@ -216,12 +246,17 @@ Finding examined(const char* subject, const std::function<Finding(const DoctorRe
 }  // namespace
 
 std::vector<Finding> examine_machine(const DoctorRequest& request) {
-  return {
-      examined("page", examine_page, request),          examined("reader", examine_reader, request),
-      examined("data folder", examine_data, request),   examined("disk", examine_space, request),
-      examined("database", examine_database, request),  examined("address", examine_address, request),
-      examined("OpenCL", examine_opencl, request),      examined("processor", examine_processors, request),
-      examined("real time", examine_realtime, request), examined("clock", examine_clock, request)};
+  return {examined("page", examine_page, request),
+          examined("reader", examine_reader, request),
+          examined("pictures", examine_pictures, request),
+          examined("data folder", examine_data, request),
+          examined("disk", examine_space, request),
+          examined("database", examine_database, request),
+          examined("address", examine_address, request),
+          examined("OpenCL", examine_opencl, request),
+          examined("processor", examine_processors, request),
+          examined("real time", examine_realtime, request),
+          examined("clock", examine_clock, request)};
 }
 
 }  // namespace ream::app

@@ -9,6 +9,7 @@
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/folder_listing.hpp"
 #include "core/log.hpp"
 #include "session/folder/index_upkeep.hpp"
 #include "session/folder/session_archive.hpp"
@@ -19,13 +20,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Sorted sub-folders; none when the folder does not exist.
+/// Sub-folders; none when the folder does not exist.
 std::vector<fs::path> folders_in(const fs::path& folder) {
   std::vector<fs::path> found;
-  std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(folder, failed))
-    if (entry.is_directory() && entry.path().extension() != ".tmp") found.push_back(entry.path());
-  std::sort(found.begin(), found.end());
+  std::error_code gone;
+  for (const fs::path& path : paths_in(folder))
+    if (fs::is_directory(path, gone) && path.extension() != ".tmp") found.push_back(path);
   return found;
 }
 

@@ -1,15 +1,16 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <build_commit.hpp>
 #include <exception>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "app/cli/commands.hpp"
 #include "app/open_database.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/process_memory.hpp"
 #include "core/version.hpp"
 #include "device/crash_guard.hpp"
 
@@ -53,6 +54,7 @@ void add_commands(CLI::App& app, ream::app::GlobalOptions& global) {
   add_user_command(app, global);
   add_backup_command(app, global);
   add_restore_command(app, global);
+  add_verify_release_command(app, global);
   add_bench_command(app, global);
   add_completion_command(app);
   add_settings_file(app);
@@ -78,9 +80,8 @@ int fail(ream::ErrorKind kind, const std::string& message, bool for_programs) {
   return ream::exit_code(kind);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+/// Returns the exit code.
+int run(int argc, char** argv, bool for_programs) {
   CLI::App app("ream: a training simulator for glenoid reaming");
   ream::app::GlobalOptions global;
   add_commands(app, global);
@@ -90,14 +91,24 @@ int main(int argc, char** argv) {
     app.get_subcommand(writing)->preparse_callback([](size_t) { ream::restrict_new_files_to_owner(); });
   ream::take_failed_writes_as_errors();
   ream::device::take_force_away_on_crash();
-  const std::vector<std::string> arguments(argv + 1, argv + argc);
-  const bool for_programs = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& e) {
-    return fail(ream::ErrorKind::usage, usage_message(app, arguments, e), for_programs);
+    return fail(ream::ErrorKind::usage, usage_message(app, {argv + 1, argv + argc}, e), for_programs);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ream::keep_memory_reserve();
+  bool for_programs = false;
+  for (int i = 1; i < argc; ++i) for_programs |= std::string_view(argv[i]) == "--json";
+  try {
+    return run(argc, argv, for_programs);
   } catch (const ream::Error& e) {
     return fail(e.kind(), e.what(), for_programs);
   } catch (const std::bad_alloc&) {
@@ -106,5 +117,4 @@ int main(int argc, char** argv) {
   } catch (const std::exception& e) {
     return fail(ream::ErrorKind::io, e.what(), for_programs);
   }
-  return 0;
 }

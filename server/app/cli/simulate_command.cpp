@@ -72,10 +72,16 @@ void simulate(const SimulateOptions& options, const GlobalOptions& global) {
     const TerminalProgress progress;
     return session::run_headless(simulation, before, folder.path(), options.wall_clock, std::cref(progress));
   }();
-  session::write_reamed_pictures(simulation, before, folder.path());
   session::keep_score(folder.path(), data_folder(global.data));
   throw_if_interrupted();
   folder.commit();
+  // A picture that cannot be drawn costs no session.
+  try {
+    session::write_reamed_pictures(simulation, before, out);
+  } catch (const Error& failure) {
+    throw Error(failure.kind(),
+                std::string(failure.what()) + "; the session itself is kept in " + out.string());
+  }
 
   if (global.json) {
     nlohmann::json summary = result.metrics;

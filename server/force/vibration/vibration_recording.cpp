@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/json_reader.hpp"
-#include "isolation/reader_process.hpp"
+#include "isolation/isolated_job.hpp"
 
 namespace ream::force {
 
@@ -14,12 +14,12 @@ VibrationRecording read_vibration_recording(const std::filesystem::path& path, d
   if (!std::filesystem::is_regular_file(path, failed))
     throw Error(ErrorKind::not_found, "there is no vibration recording " + path.string());
   constexpr uint64_t max_bytes = max_recording_samples * sizeof(double);
-  isolation::ReaderJob job;
+  isolation::IsolatedJob job;
   job.task = "vibration";
   job.input = path;
   job.options = {{"rate_hz", rate_hz}};
   job.limits.file_bytes = max_bytes;
-  const isolation::ReaderResult result = isolation::read_isolated(job);
+  const isolation::IsolatedResult result = isolation::run_isolated(job);
   JsonReader answer(result.answer(), "the answer of the reader");
   VibrationRecording recording{result.values<double>("samples", max_bytes), answer.number("rate_hz")};
   const bool finite = std::all_of(recording.samples.begin(), recording.samples.end(),

@@ -193,12 +193,13 @@ std::shared_ptr<const VibrationTracks> made(const Files& files, double rate_hz, 
 std::shared_ptr<const VibrationTracks> synthesized(uint64_t seed) {
   static std::mutex mutex;
   static std::map<uint64_t, std::weak_ptr<const VibrationTracks>> living;
+  static std::shared_ptr<const VibrationTracks> last;  // the next session is of the same seed as a rule
   const std::lock_guard lock(mutex);
   std::erase_if(living, [](const auto& entry) { return entry.second.expired(); });
   if (const auto found = living.find(seed); found != living.end())
     if (auto tracks = found->second.lock()) return tracks;
   auto tracks = made({}, 0.0, seed);
-  living[seed] = tracks;
+  living[seed] = last = tracks;
   return tracks;
 }
 

@@ -92,9 +92,10 @@ struct VibrationTracks {
   uint64_t hash() const;
 };
 
-/// Reads or synthesizes, and prepares. Nothing (null) when the source is off. Sessions that live at the same
-/// time and have the same seed share what is synthesized. Errors: those of read_vibration_recording and
-/// prepared_vibration; invalid_input when a file of a bone class is not given.
+/// Reads or synthesizes, and prepares. Nothing (null) when the source is off. Sessions with the same seed
+/// that live at the same time share what is synthesized; the last that was, 2.6 MB, stays for the next one.
+/// Errors: those of read_vibration_recording and prepared_vibration; invalid_input when a file of a bone
+/// class is not given.
 std::shared_ptr<const VibrationTracks> make_vibration_tracks(const VibrationSettings& settings,
                                                              uint64_t seed);
 

@@ -14,7 +14,7 @@
 #include "core/leftovers.hpp"
 #include "core/log.hpp"
 #include "core/temporary_file.hpp"
-#include "isolation/reader_process.hpp"
+#include "isolation/isolated_job.hpp"
 #include "session/folder/session_labels.hpp"
 #include "session/simulation/find_case.hpp"
 #include "session/simulation/recorded_session.hpp"
@@ -136,12 +136,12 @@ void write_session_bundle(const fs::path& recording_file, const std::string& cas
 bool is_session_bundle(const fs::path& file) {
   std::error_code failed;
   if (!fs::is_regular_file(file, failed) || !is_zip(file)) return false;
-  isolation::ReaderJob job;
+  isolation::IsolatedJob job;
   job.task = "session";
   job.input = file;
   job.options = {{"only_ask", true}};
   try {
-    return isolation::read_isolated(job).answer().value("holds_session", false);
+    return isolation::run_isolated(job).answer().value("holds_session", false);
   } catch (const Error&) {
     return false;  // what it is instead is said by who reads it
   }
@@ -150,12 +150,12 @@ bool is_session_bundle(const fs::path& file) {
 std::string import_session_bundle(const fs::path& zip, const fs::path& data, bool keep_labels) {
   make_writable_folder(sessions_folder(data));
   make_writable_folder(cases_folder(data));
-  isolation::ReaderJob job;
+  isolation::IsolatedJob job;
   job.task = "session";
   job.input = zip;
   job.options = {{"only_ask", false}};
   job.scratch = data;
-  const isolation::ReaderResult read = isolation::read_isolated(job);
+  const isolation::IsolatedResult read = isolation::run_isolated(job);
   const fs::path unpacked = read.folder() / "session_bundle";
   const nlohmann::json bundle = read_bundle_json(unpacked, zip);
   const std::string session = bundle["session"], case_id = bundle["case"];

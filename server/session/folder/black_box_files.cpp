@@ -4,6 +4,8 @@
 #include <charconv>
 #include <optional>
 
+#include "core/folder_listing.hpp"
+
 namespace ream::session {
 namespace fs = std::filesystem;
 namespace {
@@ -26,9 +28,8 @@ std::optional<uint32_t> tick_of(const fs::path& path) {
 
 std::vector<fs::path> black_boxes_in(const fs::path& folder) {
   std::vector<fs::path> found;
-  std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(folder, failed))
-    if (tick_of(entry.path())) found.push_back(entry.path());
+  for (const fs::path& path : paths_in(folder))
+    if (tick_of(path)) found.push_back(path);
   std::sort(found.begin(), found.end(),
             [](const fs::path& a, const fs::path& b) { return *tick_of(a) < *tick_of(b); });
   return found;

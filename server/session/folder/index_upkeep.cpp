@@ -146,8 +146,8 @@ void IndexUpkeep::compare_all() {
 void IndexUpkeep::compare_names() {
   const int64_t stamp = stamp_of_names(archive_.folder());
   if (stamp != 0 && stamp == names_stamp_) return;
-  names_stamp_ = stamp;
   const std::vector<std::string> ids = archive_.ids();
+  names_stamp_ = stamp;
   const std::set<std::string> here(ids.begin(), ids.end());
   const size_t before = waiting_.size();
   for (const std::string& id : here)

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/folder_listing.hpp"
 #include "core/log.hpp"
 #include "core/text.hpp"
 
@@ -46,10 +47,10 @@ SessionArchive::Known SessionArchive::look(const fs::path& folder) const {
 
 std::vector<std::string> SessionArchive::ids() const {
   std::vector<std::string> found;
-  std::error_code failed, ignored;
-  for (fs::directory_iterator next(folder_, failed), end; !failed && next != end; next.increment(failed)) {
-    std::string id = next->path().filename().string();
-    if (is_name(id) && next->is_directory(ignored)) found.push_back(std::move(id));
+  std::error_code gone;
+  for (const fs::path& path : paths_in(folder_)) {
+    std::string id = path.filename().string();
+    if (is_name(id) && fs::is_directory(path, gone)) found.push_back(std::move(id));
   }
   return found;
 }

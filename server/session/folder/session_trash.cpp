@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/folder_listing.hpp"
 #include "core/log.hpp"
 #include "core/new_id.hpp"
 #include "core/text.hpp"
@@ -111,9 +112,8 @@ void SessionTrash::erase(const std::string& id) {
 std::vector<DeletedSession> SessionTrash::list() const {
   std::vector<DeletedSession> found;
   if (folder_.empty()) return found;
-  std::error_code failed;
-  for (fs::directory_iterator next(folder_, failed), end; !failed && next != end; next.increment(failed))
-    if (has(next->path().filename().string())) found.push_back(deleted_in(next->path()));
+  for (const fs::path& path : paths_in(folder_))
+    if (has(path.filename().string())) found.push_back(deleted_in(path));
   std::sort(found.begin(), found.end(), [](const DeletedSession& a, const DeletedSession& b) {
     return a.deleted_utc != b.deleted_utc ? a.deleted_utc > b.deleted_utc : a.id < b.id;
   });

@@ -11,6 +11,7 @@
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/folder_listing.hpp"
 #include "core/text.hpp"
 #include "record/op_log.hpp"
 #include "session/folder/session_folder.hpp"
@@ -145,23 +146,20 @@ std::string close_session_folder(const fs::path& folder, const fs::path& data, S
 
 std::vector<std::string> recover_sessions(const fs::path& data) {
   std::vector<std::string> lines;
-  std::error_code failed;
-  const fs::path sessions = sessions_folder(data);
-  for (fs::directory_iterator next(sessions, failed), end; !failed && next != end; next.increment(failed)) {
-    const fs::directory_entry& entry = *next;
-    const std::string id = entry.path().filename().string();
+  for (const fs::path& folder : paths_in(sessions_folder(data))) {
+    const std::string id = folder.filename().string();
     std::error_code no_file;
-    if (!is_name(id) || !fs::exists(session_json(entry.path()), no_file)) continue;
+    if (!is_name(id) || !fs::exists(session_json(folder), no_file)) continue;
     std::optional<FileLock> lock;
     try {
-      lock = left_alive(entry.path());
+      lock = left_alive(folder);
     } catch (const Error&) {
       continue;  // damaged: whoever lists sessions says so
     }
     if (!lock) continue;
     try {
-      const std::string words = close_session_folder(entry.path(), data, SessionState::interrupted,
-                                                     "the server ended in mid-session");
+      const std::string words =
+          close_session_folder(folder, data, SessionState::interrupted, "the server ended in mid-session");
       lines.push_back("session " + id + ": " + (words.empty() ? "it had ended in order" : words));
     } catch (const Error& e) {
       lines.push_back("session " + id + " could not be closed and is left as it was: " + e.what());

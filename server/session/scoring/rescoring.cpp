@@ -4,6 +4,7 @@
 
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
+#include "core/folder_listing.hpp"
 #include "core/log.hpp"
 #include "record/recorded_bone.hpp"
 #include "score/bone_results.hpp"
@@ -132,14 +133,10 @@ std::vector<Rescored> rescore(std::span<const std::string> names, const std::str
 
 std::vector<std::string> recorded_sessions(const fs::path& data) {
   std::vector<std::string> names;
-  std::error_code failed;
-  for (fs::directory_iterator next(sessions_folder(data), failed), end; !failed && next != end;
-       next.increment(failed)) {
-    std::error_code unknown;
-    if (fs::is_regular_file(next->path() / "recording.ream", unknown))
-      names.push_back(next->path().filename().string());
-  }
-  std::sort(names.begin(), names.end());
+  std::error_code unknown;
+  for (const fs::path& session : paths_in(sessions_folder(data)))
+    if (fs::is_regular_file(session / "recording.ream", unknown))
+      names.push_back(session.filename().string());
   return names;
 }
 

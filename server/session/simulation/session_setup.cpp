@@ -42,7 +42,8 @@ sim::Settings settings_for(const RunRequest& request, const device::Script& scri
 }  // namespace
 
 device::Script find_script(const RunRequest& request) {
-  device::Script script = request.script_name == "demo"       ? device::demo_script()
+  device::Script script = request.script                      ? *request.script
+                          : request.script_name == "demo"     ? device::demo_script()
                           : request.script_name == "practice" ? device::practice_script()
                                                               : device::load_script(request.script_name);
   if (request.at_most_scripts_scale && request.force_scale && *request.force_scale > script.force_scale)

@@ -18,6 +18,7 @@ namespace ream::session {
 struct RunRequest {
   std::string case_name = "demo";    ///< `demo`, an id in the data folder, or the path of a case folder
   std::string script_name = "demo";  ///< `demo`, `practice` or the path of a script
+  std::optional<device::Script> script = std::nullopt;  ///< in place of the one of that name
   std::string backend = "auto";
   sim::RemovalLaw removal = sim::RemovalLaw::profile;
   std::string feed_model;  ///< empty: the script's

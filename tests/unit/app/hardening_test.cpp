@@ -1,5 +1,5 @@
-// What the compiler and the linker were told, looked for in the programs as they were built: the server, and
-// what reads strangers' files for it.
+// What the compiler and the linker were told, looked for in the programs as they were built: the server, what
+// reads strangers' files for it, and what draws.
 #include <elf.h>
 #include <gtest/gtest.h>
 
@@ -91,9 +91,11 @@ class Hardening : public testing::TestWithParam<const char*> {
  protected:
   const Elf program_{build_folder() + "/" + GetParam()};
 };
-INSTANTIATE_TEST_SUITE_P(Programs, Hardening, testing::Values("ream", "ream-reader"),
+INSTANTIATE_TEST_SUITE_P(Programs, Hardening, testing::Values("ream", "ream-reader", "ream-renderer"),
                          [](const auto& program) {
-                           return std::string(program.param) == "ream" ? "Server" : "Reader";
+                           std::string name = program.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
                          });
 
 TEST_P(Hardening, TheProgramLiesAnywhereAndNothingOfItIsBothWrittenAndRun) {

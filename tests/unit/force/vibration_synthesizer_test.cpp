@@ -116,10 +116,16 @@ TEST(SynthesizedVibration, HasNoLineWhereAPlantedOneIsFound) {
 
 TEST(SynthesizedVibration, ComesFromTheSeedAlone) {
   const auto track_hash = [](uint64_t seed) { return make_vibration_tracks({}, seed)->hash(); };
-  EXPECT_EQ(track_hash(7), track_hash(7)) << "made twice: nobody kept the first";
-  EXPECT_NE(track_hash(7), track_hash(8));
-  const auto kept = make_vibration_tracks({}, 7);
+  const uint64_t first = track_hash(7);
+  EXPECT_NE(track_hash(8), first);
+  EXPECT_EQ(track_hash(7), first) << "made twice: the eighth took the place of what is kept";
+  auto kept = make_vibration_tracks({}, 7);
   EXPECT_EQ(make_vibration_tracks({}, 7), kept) << "shared while it lives";
+  const std::weak_ptr<const VibrationTracks> left = kept;
+  kept.reset();
+  EXPECT_FALSE(left.expired()) << "the last is there for the next session";
+  track_hash(8);
+  EXPECT_TRUE(left.expired());
 }
 
 TEST(SynthesizedVibration, SeedsAndKindsAreIndependent) {

@@ -1,0 +1,69 @@
+#include "module/computing.hpp"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+namespace ream::python {
+
+namespace {
+
+std::atomic<bool> python_ends{false};
+std::thread::id ending_thread;  ///< set before python_ends
+/// Threads that are on their way into Python.
+std::atomic<int> coming_back{0};
+
+/// Called by Python on the thread that ends it, while daemon threads still run.
+void say_that_python_ends() {
+  ending_thread = std::this_thread::get_id();
+  python_ends = true;
+  const pybind11::gil_scoped_release let_them_in;
+  while (coming_back > 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+}  // namespace
+
+void watch_end_of_python() {
+  pybind11::module_::import("atexit").attr("register")(pybind11::cpp_function(&say_that_python_ends));
+}
+
+void Computing::come_back() {
+  ++coming_back;
+  if (python_ends && std::this_thread::get_id() != ending_thread) {
+    --coming_back;
+    while (true) ::pause();
+  }
+  PyEval_RestoreThread(thread_);
+  --coming_back;
+}
+
+void Signals::look() {
+  computing_.come_back();
+  const bool raised = PyErr_CheckSignals() != 0;
+  if (!raised) {
+    computing_.thread_ = PyEval_SaveThread();
+    return;
+  }
+  pybind11::error_already_set error;
+  computing_.thread_ = PyEval_SaveThread();
+  throw error;
+}
+
+Progress Signals::progress() {
+  static constexpr std::chrono::milliseconds between{100};
+  const auto owner = std::this_thread::get_id();
+  return [this, owner, next = std::chrono::steady_clock::now() + between](double, std::string_view) mutable {
+    if (std::this_thread::get_id() != owner || std::chrono::steady_clock::now() < next) return;
+    next = std::chrono::steady_clock::now() + between;
+    look();
+  };
+}
+
+std::mutex& case_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+}  // namespace ream::python
