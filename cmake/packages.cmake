@@ -1,8 +1,9 @@
-# What the Debian packages hold, which scripts/package makes: program and page as `ream`, papers as `ream-doc`. The page (web/dist), man pages, completion and papers are made before; they lie in build/package.
+# What the Debian packages hold, which scripts/package makes: program and page as `ream`, Python's module as `python3-ream`,
+# papers as `ream-doc`. The page (web/dist), man pages, completion and papers are made before; they lie in build/package.
 set(REAM_PACKAGE_CONTACT "the authors of ream <ream@example.org>" CACHE STRING "Who keeps the packages, as Debian wants it")
 set(made ${CMAKE_BINARY_DIR}/package)
 install(TARGETS ream RUNTIME DESTINATION bin COMPONENT ream)
-install(TARGETS ream-reader RUNTIME DESTINATION lib/ream COMPONENT ream)
+install(TARGETS ream-reader ream-renderer RUNTIME DESTINATION lib/ream COMPONENT ream)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/web/dist/ DESTINATION share/ream/web COMPONENT ream)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/examples DESTINATION share/doc/ream COMPONENT ream)
 install(DIRECTORY ${made}/man/ DESTINATION share/man/man1 COMPONENT ream OPTIONAL)
@@ -17,6 +18,21 @@ install(FILES ${CMAKE_SOURCE_DIR}/packaging/ream.toml DESTINATION /etc/ream COMP
 install(DIRECTORY ${made}/doc/ DESTINATION share/doc/ream-doc COMPONENT doc OPTIONAL)
 install(FILES ${CMAKE_SOURCE_DIR}/packaging/copyright ${made}/changelog.gz DESTINATION share/doc/ream-doc COMPONENT doc
         OPTIONAL)
+
+if(TARGET ream_python)
+  # Debian's Python looks here for what packages bring, whatever its version.
+  set(python_folder lib/python3/dist-packages/ream)
+  install(TARGETS ream_python LIBRARY DESTINATION ${python_folder} COMPONENT python)
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/python/ream/ DESTINATION ${python_folder} COMPONENT python
+          FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
+  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/python/installed)
+  foreach(program ream-reader ream-renderer)
+    file(CREATE_LINK ../../../ream/${program} ${CMAKE_BINARY_DIR}/python/installed/${program} SYMBOLIC)
+    install(FILES ${CMAKE_BINARY_DIR}/python/installed/${program} DESTINATION ${python_folder} COMPONENT python)
+  endforeach()
+  install(FILES ${CMAKE_SOURCE_DIR}/packaging/copyright ${made}/changelog.gz DESTINATION share/doc/python3-ream
+          COMPONENT python OPTIONAL)
+endif()
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_VENDOR ream)
@@ -51,4 +67,19 @@ set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
 set(CPACK_COMPONENT_DOC_DESCRIPTION "training simulator for glenoid reaming - guides
 Guides for trainees, instructors, administrators and researchers of ream, as
 pages for a browser.")
+if(TARGET ream_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  math(EXPR next_minor "${REAM_PYTHON_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-ream)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+      "ream (= ${PROJECT_VERSION}), python3-numpy (<< 1:2), python3 (>= 3.${REAM_PYTHON_MINOR}), python3 (<< 3.${next_minor})")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+      "${CMAKE_SOURCE_DIR}/packaging/python/postinst;${CMAKE_SOURCE_DIR}/packaging/python/prerm")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "training simulator for glenoid reaming - Python module
+Steps reamings tick by tick from Python, with the bits of the program, and
+gives recordings, bone and voxels as NumPy arrays.")
+endif()
 include(CPack)

@@ -2,9 +2,17 @@
 add_library(ream_flags INTERFACE)
 target_compile_options(ream_flags INTERFACE
   -pthread -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off)
+if(REAM_PYTHON)
+  # The same objects make the programs and Python's module.
+  target_compile_options(ream_flags INTERFACE -fPIC -fno-semantic-interposition)
+endif()
 if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # g++ takes a unity source for a header: what an unnamed namespace of one of its files declares.
   target_compile_options(ream_flags INTERFACE -Wno-subobject-linkage)
+endif()
+if(CMAKE_BUILD_TYPE STREQUAL "Release")
+  # The folder of the build stands nowhere in the program: the same sources make the same bytes in any place.
+  target_compile_options(ream_flags INTERFACE -ffile-prefix-map=${CMAKE_SOURCE_DIR}/= -ffile-prefix-map=${CMAKE_BINARY_DIR}/=build/)
 endif()
 if(NOT REAM_SANITIZER AND NOT REAM_FUZZ)
   # What makes a mistake in memory end the program (device/crash_guard takes the force away) rather than serve somebody.

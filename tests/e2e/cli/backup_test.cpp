@@ -19,16 +19,6 @@ using namespace std::chrono_literals;
 
 class Backup : public ServeBlock {
  protected:
-  void serve(const Words& more = {}) {
-    Words words{"--backend", "cpu", "--realtime", "off"};
-    words.insert(words.end(), more.begin(), more.end());
-    Serve::serve(words);
-    until_ready();
-  }
-  void end_server() {
-    server_->send_signal(SIGTERM);
-    EXPECT_EQ(server_->wait(20s), 0) << printed("server.err");
-  }
   std::string run_session() {
     const std::string id = create();
     request(200, "POST", path_of(id) + "/start");
@@ -38,7 +28,7 @@ class Backup : public ServeBlock {
 };
 
 TEST_F(Backup, CarriesARunningServersSessionsIntoPostgresqlAndBack) {
-  serve();
+  serve_when_ready();
   const std::string ended = run_session();
   request(200, "POST", "/api/v1/sessions/" + ended + "/stop");
   const std::string live = run_session();
@@ -54,7 +44,7 @@ TEST_F(Backup, CarriesARunningServersSessionsIntoPostgresqlAndBack) {
   const json restored = answer({"restore", "first.zip", "--data", "second", "--db", url});
   EXPECT_EQ(restored.at("sessions"), 2);
   EXPECT_EQ(restored.at("database").get<std::string>().find("ream@"), std::string::npos);
-  serve({"--data", "second", "--db", url});
+  serve_when_ready({"--data", "second", "--db", url});
   EXPECT_EQ(request(200, "GET", "/api/v1/sessions/" + ended).at("state"), "stopped");
   const json kept = request(200, "GET", "/api/v1/sessions/" + live);
   EXPECT_EQ(kept.at("state"), "interrupted");

@@ -83,7 +83,7 @@ TEST_F(BadInput, UnusableScriptsCasesAndPlacesAreNamed) {
 }
 
 TEST_F(BadInput, UnusableToolsAndBackendsAreNamed) {
-  succeed({"plan", "demo"});  // makes the demo case
+  take_demo_case();
   write(
       "nan.ply",
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"

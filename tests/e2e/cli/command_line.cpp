@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 
 #include "core/file.hpp"
 #include "support/places.hpp"
@@ -14,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr auto longest_run = std::chrono::seconds(240);
-constexpr std::array demo_folders = {"data", "run"};
+constexpr const char* demo_case = "data/cases/demo";
 
 /// Of this build of the program.
 fs::path kept_demo() {
@@ -23,8 +22,12 @@ fs::path kept_demo() {
   return build_folder() + "/tests/short-demo-" + std::to_string(made);
 }
 
+void copy_folder(const std::string& name, const fs::path& from, const fs::path& to) {
+  fs::create_directories((to / name).parent_path());
+  fs::copy(from / name, to / name, fs::copy_options::recursive);
+}
 void copy_demo(const fs::path& from, const fs::path& to) {
-  for (const char* name : demo_folders) fs::copy(from / name, to / name, fs::copy_options::recursive);
+  for (const char* name : {demo_case, "run"}) copy_folder(name, from, to);
 }
 
 /// Another test may do the same. Those of earlier builds go.
@@ -131,7 +134,7 @@ std::string CommandLine::text_of(const fs::path& relative) const {
 
 std::string CommandLine::short_script() {
   return write("short.json",
-               R"({"device": "hand", "duration_s": 3, "stiffness_n_mm": 100,
+               R"({"device": "hand", "duration_s": 3, "stiffness_n_mm": 100, "vibration": {"source": "off"},
                    "hand": {"start_mm": [0, 0, -1],
                             "force_profile": [{"t_s": 0, "force_n": 30}, {"t_s": 0.3, "force_n": 60}]}})")
       .filename();
@@ -142,6 +145,16 @@ void CommandLine::simulate_short_demo() {
   if (fs::exists(kept_demo())) return copy_demo(kept_demo(), folder());
   succeed({"simulate", "--case", "demo", "--script", script, "--backend", "cpu", "--out", "run"});
   keep_demo(folder());
+}
+
+void CommandLine::take_demo_case() {
+  if (fs::exists(kept_demo())) {
+    copy_folder(demo_case, kept_demo(), folder());
+    fs::permissions(folder() / "data", fs::perms::owner_all);  // as a program makes it
+    return;
+  }
+  simulate_short_demo();
+  for (const char* made : {"run", "short.json"}) fs::remove_all(folder() / made);
 }
 
 std::vector<std::string> CommandLine::tree() const {

@@ -48,6 +48,8 @@ class CommandLine : public testing::Test {
   std::string short_script();
   /// Runs it on the demo case: the folder run. All tests of one build share what the first of them makes.
   void simulate_short_demo();
+  /// The demo case is there, as one of all tests made it; a program makes it in seconds where it is not.
+  void take_demo_case();
   /// Relative paths of all files and folders with the files' sizes, leaving out caches below home.
   std::vector<std::string> tree() const;
 

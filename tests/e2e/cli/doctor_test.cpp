@@ -23,8 +23,8 @@ TEST_F(Doctor, FindsNothingWrongWithAFreshFolderAndMakesNothing) {
   const auto before = tree();
   const auto found = findings(0, {"--data", "fresh"});
   EXPECT_EQ(tree(), before);
-  for (const char* subject : {"page", "reader", "data folder", "disk", "database", "address", "OpenCL",
-                              "processor", "real time", "clock"})
+  for (const char* subject : {"page", "reader", "pictures", "data folder", "disk", "database", "address",
+                              "OpenCL", "processor", "real time", "clock"})
     EXPECT_TRUE(found.contains(subject)) << subject;
   for (const auto& [subject, finding] : found) {
     EXPECT_NE(finding.at("state"), "fault") << finding;

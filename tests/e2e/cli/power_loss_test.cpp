@@ -27,6 +27,7 @@ class PowerLoss : public ServeBlock, public testing::WithParamInterface<Lost> {
     GTEST_SKIP() << "the sanitizer's own library must be the first";
 #endif
     ServeBlock::SetUp();
+    takes_demo_case_ = false;  // a copy that a test made was never synced
     environment_["LD_PRELOAD"] = build_folder() + "/tests/support/libpower_loss_preload.so";
     environment_[power_loss_variable] = kept();
     begin();

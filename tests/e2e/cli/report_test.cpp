@@ -71,6 +71,7 @@ TEST_F(SessionReport, IsOnePageForTheBrowserToo) {
 }
 
 TEST_F(SessionReport, OfASessionThatNeverTouchedBoneSaysSo) {
+  take_demo_case();
   simulate(write("air.json", R"({"device": "hand", "duration_s": 1, "stiffness_n_mm": 100,
       "hand": {"start_mm": [0, 0, -40], "force_profile": [{"t_s": 0, "force_n": 0}]}})")
                .filename());
@@ -86,6 +87,7 @@ TEST_F(SessionReport, OfASessionThatNeverTouchedBoneSaysSo) {
 }
 
 TEST_F(SessionReport, OfAFewMomentsIsAReport) {
+  take_demo_case();
   simulate(write("moment.json", R"({"device": "hand", "duration_s": 0.02, "stiffness_n_mm": 100,
       "hand": {"start_mm": [0, 0, -1], "force_profile": [{"t_s": 0, "force_n": 60}]}})")
                .filename());

@@ -74,6 +74,7 @@ class Scoring : public CommandLine {
 };
 
 TEST_F(Scoring, OfWhatNeverTouchedBone) {
+  take_demo_case();
   simulate("demo", 1.0, 0.0, -40.0);
   const json told = expect_sound();
   EXPECT_EQ(told.at("score").at("outcome"), "undecided");
@@ -86,6 +87,7 @@ TEST_F(Scoring, OfWhatNeverTouchedBone) {
 }
 
 TEST_F(Scoring, OfTheFirstMoments) {
+  take_demo_case();
   simulate("demo", 0.001, 60.0, -1.0);
   const json told = expect_sound();
   EXPECT_EQ(told.at("score").at("outcome"), "undecided");

@@ -1,4 +1,8 @@
 #pragma once
+#include <signal.h>
+
+#include <chrono>
+
 #include "case/case.hpp"
 #include "e2e/cli/serve_fixture.hpp"
 #include "support/test_bone.hpp"
@@ -20,12 +24,24 @@ class ServeBlock : public Serve {
     block.plan->reamer = "sphere 12,8";
     case_::save_case(block, folder() / "data/cases/block");
     write("data/scripts/press.json",
-          R"({"device": "hand", "duration_s": 600, "stiffness_n_mm": 100,
+          R"({"device": "hand", "duration_s": 600, "stiffness_n_mm": 100, "vibration": {"source": "off"},
               "hand": {"start_mm": [0, 0, -0.3], "force_profile": [{"t_s": 0, "force_n": 40}]}})");
   }
 
   void until_ready() {
     until("it is ready", [&] { return http_request(port_, "GET", "/readyz").status == 200; });
+  }
+
+  /// On the C++ form, without real time; returns when it is ready.
+  void serve_when_ready(const Words& more = {}) {
+    Words words{"--backend", "cpu", "--realtime", "off"};
+    words.insert(words.end(), more.begin(), more.end());
+    serve(words);
+    until_ready();
+  }
+  void end_server() {
+    server_->send_signal(SIGTERM);
+    EXPECT_EQ(server_->wait(std::chrono::seconds(20)), 0) << printed("server.err");
   }
 
   /// A session that presses on the block.

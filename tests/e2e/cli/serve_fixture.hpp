@@ -16,6 +16,7 @@ class Serve : public CommandLine {
 
   /// Returns when it says where it is.
   void serve(const Words& more = {}) {
+    if (takes_demo_case_ && !std::filesystem::exists(folder() / "data/cases/demo")) take_demo_case();
     Words command = {"serve", "--port", "0", "--web", "web", "--json"};
     command.insert(command.end(), more.begin(), more.end());
     server_ = start(command, "server");
@@ -45,6 +46,7 @@ class Serve : public CommandLine {
     return reply.body.empty() ? nlohmann::json() : nlohmann::json::parse(reply.body);
   }
 
+  bool takes_demo_case_ = true;  ///< false where the server has to make it
   std::unique_ptr<ChildProcess> server_;
   nlohmann::json said_;  ///< at its start
   uint16_t port_ = 0;

@@ -62,6 +62,7 @@ TEST_F(Simulate, WhatIsBelowTheDataFolderIsForItsOwnerAlone) {
 }
 
 TEST_F(Simulate, TheDemoRemovesBoneAlikeOnEveryBackend) {
+  take_demo_case();
   for (const char* backend : {"cpu", "opencl"}) {
     const auto said =
         answer({"simulate", "--case", "demo", "--script", "demo", "--backend", backend, "--out", backend});
@@ -75,6 +76,7 @@ TEST_F(Simulate, TheDemoRemovesBoneAlikeOnEveryBackend) {
 }
 
 TEST_F(Simulate, EqualRunsAndEveryBackendGiveTheSameBytes) {
+  take_demo_case();
   const std::string script = short_script();
   for (const char* backend : {"cpu", "opencl"})
     for (const char* turn : {"-1", "-2"})
@@ -88,11 +90,12 @@ TEST_F(Simulate, EqualRunsAndEveryBackendGiveTheSameBytes) {
 }
 
 TEST_F(Simulate, RemovalByDecayIsTheSameOnEveryBackendAndSaysSo) {
+  take_demo_case();
   const std::string script = short_script();
   for (const char* backend : {"cpu", "opencl"})
     succeed({"simulate", "--case", "demo", "--script", script, "--backend", backend, "--removal", "decay",
              "--out", std::string("decay-") + backend});
-  succeed({"simulate", "--case", "demo", "--script", script, "--out", "profile"});
+  succeed({"simulate", "--case", "demo", "--script", script, "--backend", "cpu", "--out", "profile"});
   expect_results("decay-cpu");
   for (const char* file : {"/metrics.json", "/trace.csv", "/reamed.ply"})
     EXPECT_EQ(text_of(std::string("decay-opencl") + file), text_of(std::string("decay-cpu") + file)) << file;
@@ -105,6 +108,7 @@ TEST_F(Simulate, RemovalByDecayIsTheSameOnEveryBackendAndSaysSo) {
 }
 
 TEST_F(Simulate, EveryFeedModelSaysSoAndFeedsAsTheSpindleTurns) {
+  take_demo_case();
   nlohmann::json script = json_of(short_script());
   script["spindle_rpm"] = 312.0;
   script["specimen_factor"] = 0.95;
@@ -113,7 +117,8 @@ TEST_F(Simulate, EveryFeedModelSaysSoAndFeedsAsTheSpindleTurns) {
   for (const char* model : {"thesis", "oblique", "edge"}) {
     SCOPED_TRACE(model);
     const std::string out = std::string("model-") + model;
-    succeed({"simulate", "--case", "demo", "--script", "fast.json", "--model", model, "--out", out});
+    succeed({"simulate", "--case", "demo", "--script", "fast.json", "--model", model, "--backend", "cpu",
+             "--out", out});
     expect_results(out);
     const auto session = json_of(out + "/session.json");
     const record::Recording recording(folder() / out / "recording.ream");
@@ -135,20 +140,21 @@ TEST_F(Simulate, EveryFeedModelSaysSoAndFeedsAsTheSpindleTurns) {
 }
 
 TEST_F(Simulate, WithoutAnOutputFolderItTakesTheNextFreeNumber) {
+  take_demo_case();
   const std::string script = short_script();
   for (const char* out : {"ream-out/1", "ream-out/2"}) {
-    const Outcome outcome = succeed({"simulate", "--case", "demo", "--script", script});
+    const Outcome outcome = succeed({"simulate", "--case", "demo", "--script", script, "--backend", "cpu"});
     EXPECT_NE(outcome.out.find(out), std::string::npos) << outcome.out;
     EXPECT_TRUE(fs::exists(folder() / out / "metrics.json"));
   }
 }
 
 TEST_F(Simulate, InterruptedItLeavesNothing) {
-  const std::string script = short_script();
-  succeed({"simulate", "--case", "demo", "--script", script, "--out", "warm"});  // makes the demo case
+  take_demo_case();
   const auto before = tree();
   for (const int number : {SIGINT, SIGTERM}) {
-    const auto child = start({"simulate", "--case", "demo", "--script", "demo", "--realtime"}, "interrupted");
+    const auto child = start(
+        {"simulate", "--case", "demo", "--script", "demo", "--backend", "cpu", "--realtime"}, "interrupted");
     while (tree() == before && !child->ended()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     child->send_signal(number);

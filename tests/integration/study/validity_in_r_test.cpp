@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "core/file.hpp"
@@ -66,7 +67,8 @@ bool is_bootstrap(const std::string& name) { return name.find("auc_bootstrap") !
 /// sqrt(q (1 - q) / B) / density, with the normal density of the bootstrap's own deviation; four such errors
 /// of both, and a step of the area, which is not smooth.
 double bootstrap_tolerance(double deviation, size_t ours, double pairs) {
-  const double density = statistics::normal_density(statistics::normal_quantile(0.975)) / deviation;
+  const double z = statistics::normal_quantile(0.975);
+  const double density = std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi) / deviation;
   const double each = std::sqrt(0.025 * 0.975) / density;
   constexpr double samples_of_r = 10000.0;
   return 4.0 * each * std::sqrt(1.0 / static_cast<double>(ours) + 1.0 / samples_of_r) + 1.0 / pairs;
