@@ -1,6 +1,8 @@
 #pragma once
 #include <pybind11/numpy.h>
 
+#include <array>
+
 #include "geometry/pose.hpp"
 #include "geometry/triangle_mesh.hpp"
 #include "voxel/voxel_grid.hpp"
@@ -12,6 +14,10 @@ namespace ream::python {
 template <typename Number>
 using Numbers = pybind11::array_t<Number, pybind11::array::c_style | pybind11::array::forcecast>;
 using Doubles = Numbers<double>;
+
+/// x, y, z.
+using Triple = std::array<double, 3>;
+inline Vec3 vector(const Triple& t) { return {t[0], t[1], t[2]}; }
 
 /// Bytes that `owner` keeps brick after brick, seen without a copy and for reading only: bricks along z, y,
 /// x, then voxels along z, y, x.

@@ -16,14 +16,11 @@ namespace ream::python {
 namespace {
 
 namespace py = pybind11;
-using Triple = std::array<double, 3>;
 using voxelizer::RasterGrid;
 using voxelizer::VoxelSet;
 
 /// Larger ones belong into files: `ream voxelize` writes them.
 constexpr double max_array_voxels = 4e9;
-
-Vec3 vector(const Triple& t) { return {t[0], t[1], t[2]}; }
 
 /// (z, y, x), one bool a voxel.
 py::array_t<bool> array_of(const VoxelSet& set) {

@@ -1,6 +1,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -196,6 +197,31 @@ void bind_bone(py::class_<Simulation>& simulation) {
       });
 }
 
+/// Of a camera in the plan frame; without a place it is in front of the glenoid.
+py::tuple picture(Simulation& self, const std::optional<Triple>& eye_mm, const Triple& target_mm,
+                  const std::optional<Triple>& up, double field_of_view_rad, int width, int height,
+                  bool with_reamer) {
+  std::optional<render::Camera> camera;
+  if (eye_mm) {
+    camera.emplace();
+    camera->eye_mm = vector(*eye_mm);
+    camera->target_mm = vector(target_mm);
+    camera->up = up ? vector(*up) : Vec3::UnitY();
+    camera->vertical_field_of_view_rad = field_of_view_rad;
+  }
+  const Simulation::Use use(self);
+  VoxelPicture drawn;
+  {
+    const Computing computing;
+    drawn = self.reaming.picture(camera, width, height, with_reamer);
+  }
+  const py::ssize_t rows = height, columns = width;
+  return py::make_tuple(py::array_t<uint8_t>({rows, columns, py::ssize_t{3}}, drawn.rgb.data()),
+                        py::array_t<float>({rows, columns}, drawn.depth_mm.data()),
+                        py::array_t<uint8_t>({rows, columns}, drawn.labels.data()),
+                        py::array_t<uint8_t>({rows, columns}, drawn.cut.data()).attr("view")("bool"));
+}
+
 void bind_moments(py::class_<Simulation>& simulation) {
   simulation
       .def("reset",
@@ -225,6 +251,20 @@ void bind_told(py::class_<Simulation>& simulation) {
              const Computing computing;
              return self.reaming.metrics().dump();
            })
+      .def("score_json",
+           [](Simulation& self, const std::string& rubric) {
+             const Simulation::Use use(self);
+             const Computing computing;
+             return self.reaming.score(rubric).dump();
+           })
+      .def("save",
+           [](Simulation& self, const std::filesystem::path& folder, bool pictures) {
+             const Simulation::Use use(self);
+             Computing computing;
+             Signals signals(computing);
+             self.reaming.save(folder, pictures, signals.progress());
+           })
+      .def("picture", &picture)
       .def("plan_json",
            [](const Simulation& self) { return case_::to_json(self.reaming.model().plan).dump(); })
       .def("table",

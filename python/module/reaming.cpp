@@ -3,10 +3,17 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/atomic_file.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "device/registry/device_registry.hpp"
 #include "score/bone_results.hpp"
 #include "score/planned_face.hpp"
+#include "score/rubric_score.hpp"
+#include "score/rubric_store.hpp"
+#include "session/live/headless_run.hpp"
+#include "session/scoring/score_document.hpp"
+#include "session/simulation/reamed_pictures.hpp"
 #include "session/simulation/session_setup.hpp"
 #include "sim/hand_output.hpp"
 #include "sim/haptic_loop.hpp"
@@ -39,7 +46,8 @@ session::SimulationSetup setup_for(const ReamingRequest& request) {
 }  // namespace
 
 size_t Snapshot::bytes() const {
-  return sizeof(Snapshot) + moment.schedule.bytes() + bricks.size() * sizeof(uint32_t) + coverages.size();
+  return sizeof(Snapshot) + moment.schedule.bytes() + bricks.size() * sizeof(uint32_t) + coverages.size() +
+         causes.bytes();
 }
 
 Reaming::Reaming(ReamingRequest request) : data_(request.data), setup_(setup_for(request)) {
@@ -63,6 +71,7 @@ void Reaming::make_state(const sim::Moment* from) {
 void Reaming::begin() {
   make_state(nullptr);
   metrics_.emplace(setup_.bone_case.bone.grid.voxel_volume_mm3(), model_->world_from_plan.inverse());
+  causes_ = {};
   hand_ = Hand::nobody_yet;
 }
 
@@ -86,6 +95,7 @@ record::ops::Tick Reaming::tick(device::DeviceInput input) {
   }
   if (hand_ == Hand::script) setup_.device->write(sim::output_of(report));
   const record::ops::Tick kept = record::tick_op(report);
+  causes_.add(kept);
   metrics_->add(record::report_of(kept, setup_.bone_case.bone.grid.world_from_grid));
   return kept;
 }
@@ -134,7 +144,7 @@ std::optional<record::ops::Tick> Reaming::step_script() {
 Snapshot Reaming::snapshot() const {
   require_no_fault();
   const voxel::BoneModel& bone = setup_.bone_case.bone;
-  Snapshot taken{model_, *state_, *metrics_, {}, {}};
+  Snapshot taken{model_, *state_, *metrics_, {}, {}, causes_};
   for (uint32_t brick = 0; brick < bone.grid.brick_count(); ++brick) {
     const size_t base = bone.grid.brick_base(brick);
     const uint8_t* now = bone.coverage.data() + base;
@@ -157,6 +167,7 @@ void Reaming::restore(const Snapshot& snapshot) {
                        snapshot.coverages.data() + i * brick_voxels);
   make_state(&snapshot.moment);
   metrics_ = snapshot.metrics;
+  causes_ = snapshot.causes;
   hand_ = Hand::caller;
 }
 
@@ -167,6 +178,50 @@ nlohmann::json Reaming::metrics() const {
                           {bone.grid, bone.coverage.data()}, metrics_->cut_line(), model_->world_from_plan);
   const uint64_t grid_hash = bone.coverage_hash();
   return score::session_metrics_json(*metrics_, of_bone, model_->settings.force_scale, &grid_hash);
+}
+
+nlohmann::json Reaming::score(const std::string& rubric) const {
+  const score::Rubric judge = score::find_rubric(rubric, score::RubricStore(rubrics_folder(data_)));
+  return score::score_json(judge, score::apply_rubric(judge, metrics()));
+}
+
+void Reaming::save(const std::filesystem::path& folder, bool pictures, const Progress& progress) const {
+  if (causes_.size() == 0) throw Error(ErrorKind::conflict, "there is nothing to save before the first step");
+  AtomicFolder made(folder);
+  session::SimulationSetup setup = setup_for({setup_.request, data_});
+  setup.device = std::make_unique<record::ReplayDevice>(causes_.all(), setup.device->traits());
+  session::Simulation again(std::move(setup));
+  again.state.handle_given = true;
+  again.state.failed_over_tick = state_->failed_over_tick;
+  const std::vector<uint8_t> before = again.bone_case.bone.coverage;
+  session::run_headless(again, before, made.path(), false, progress);
+  if (again.state.session_hash != state_->session_hash)
+    throw Error(ErrorKind::conflict, "the case '" + setup_.bone_case.id +
+                                         "' has changed since the simulation was made; make it anew");
+  session::keep_score(made.path(), data_);
+  made.commit();
+  if (pictures) session::write_reamed_pictures(again, before, folder);
+}
+
+VoxelPicture Reaming::picture(const std::optional<render::Camera>& camera, int width, int height,
+                              bool with_reamer) const {
+  const case_::Case& c = setup_.bone_case;
+  const Pose world_from_plan = model_->world_from_plan;
+  render::Camera seen_from = session::glenoid_camera(
+      model_->plan, c.glenoid ? c.glenoid->superior : Vec3::UnitZ(), default_camera_distance_mm);
+  if (camera) {
+    seen_from = *camera;
+    seen_from.eye_mm = world_from_plan.point(camera->eye_mm);
+    seen_from.target_mm = world_from_plan.point(camera->target_mm);
+    seen_from.up = world_from_plan.rotation * camera->up;
+  }
+  const Pose grid_from_world = state_->world_from_grid.inverse();
+  VoxelScene scene{c.bone, start_coverage_.data()};
+  if (with_reamer && state_->started) {
+    scene.reamer = &setup_.tool.mesh;
+    scene.grid_from_reamer = grid_from_world * state_->world_from_tool;
+  }
+  return draw_voxels(scene, grid_from_world, seen_from, width, height);
 }
 
 }  // namespace ream::python

@@ -5,6 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "core/progress.hpp"
+#include "module/cause_log.hpp"
+#include "module/voxel_picture.hpp"
 #include "record/recording.hpp"
 #include "score/metrics.hpp"
 #include "session/simulation/simulation.hpp"
@@ -27,6 +30,7 @@ struct Snapshot {
   score::MetricsAccumulator metrics;
   std::vector<uint32_t> bricks;    ///< that differ from the start
   std::vector<uint8_t> coverages;  ///< theirs, voxel::brick_voxels each
+  CauseLog causes;
 
   size_t bytes() const;
 };
@@ -61,6 +65,20 @@ class Reaming {
 
   /// What is scored, so far: as metrics.json. Takes some hundredths of a second.
   nlohmann::json metrics() const;
+  /// What metrics() are worth by a rubric (a file, or "id" or "id@version" of the data folder), as
+  /// score::score_json has it. Errors: not_found, invalid_input.
+  nlohmann::json score(const std::string& rubric) const;
+
+  /// Writes the session so far as `ream simulate` would have, into a folder that must be new or empty: it is
+  /// computed once more from what the hand did, by the program's own loop. With snapshot.png and reamed.ply
+  /// where there are to be `pictures`. Errors: conflict before the first tick, and for a case that has
+  /// changed since; io; those of build_setup; those of `progress`.
+  void save(const std::filesystem::path& folder, bool pictures, const Progress& progress) const;
+
+  /// What a camera sees now of bone and reamer. `camera`: plan frame; empty: in front of the glenoid,
+  /// superior up. Error invalid_input for cameras and sizes that cannot be.
+  VoxelPicture picture(const std::optional<render::Camera>& camera, int width, int height,
+                       bool with_reamer) const;
 
   const sim::Model& model() const { return *model_; }
   const sim::State& state() const { return *state_; }
@@ -84,6 +102,7 @@ class Reaming {
   std::optional<score::MetricsAccumulator> metrics_;
   std::optional<sim::PoseWatchdog> watchdog_;
   device::DeviceInput input_;  ///< the last
+  CauseLog causes_;            ///< since tick 0
   Hand hand_ = Hand::nobody_yet;
 };
 

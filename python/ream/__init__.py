@@ -18,6 +18,7 @@ if int(_numpy.__version__.split(".")[0]) > 1:
 from ream._ream import Error, Snapshot
 from ream._ream import version as __version__
 from ream.meshes import Voxels, load_mesh, voxelize
+from ream.pictures import Label, Picture
 from ream.recording import Recording, open
 from ream.simulation import Simulation, volume
 from ream.ticks import TICK, Flag, matrices, trigger
@@ -27,6 +28,8 @@ __all__ = [
     "TICK",
     "Error",
     "Flag",
+    "Label",
+    "Picture",
     "Recording",
     "Simulation",
     "Snapshot",

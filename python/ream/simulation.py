@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ream import _ream
+from ream.pictures import Picture
 from ream.ticks import TICK, Frames
 
 _MANY_TICKS = 2**40
@@ -29,6 +30,11 @@ def _script_text(script: dict[str, Any]) -> str:
         return json.dumps(script, default=_plain, allow_nan=False)
     except ValueError:
         raise _ream.Error("a script cannot hold nan or infinite numbers") from None
+
+
+def _triple(numbers: Sequence[float]) -> tuple[float, float, float]:
+    x, y, z = numbers
+    return float(x), float(y), float(z)
 
 
 class Simulation(Frames):
@@ -155,6 +161,50 @@ class Simulation(Frames):
         """What is scored so far, as in metrics.json (docs/reference.md). Takes some hundredths of a second."""
         told: dict[str, Any] = json.loads(self._core.metrics_json())
         return told
+
+    def score(self, rubric: str | os.PathLike[str] = "standard") -> dict[str, Any]:
+        """What the bone is worth so far by a rubric: `points`, `outcome`, `reasons` and each criterion.
+
+        rubric: a file, or the name of one in the data folder, with "@" and a version where not the newest is meant.
+        """
+        told: dict[str, Any] = json.loads(self._core.score_json(os.fspath(rubric)))
+        return told
+
+    def save(self, folder: str | os.PathLike[str], *, pictures: bool = False) -> None:
+        """Writes the session so far as `ream simulate` does: recording, trace.csv, metrics, score.
+
+        The session is computed once more for it, from what the hand did, so that `ream replay` can verify it. Steps
+        that restore() has taken back are not in it.
+
+        folder: new or empty.
+        pictures: with snapshot.png and reamed.ply, too, which take some seconds.
+        """
+        self._core.save(os.fspath(folder), pictures)
+
+    def picture(
+        self,
+        width: int = 320,
+        height: int = 240,
+        *,
+        eye_mm: Sequence[float] | None = None,
+        target_mm: Sequence[float] = (0.0, 0.0, 0.0),
+        up: Sequence[float] | None = None,
+        field_of_view_rad: float = 0.6,
+        reamer: bool = True,
+    ) -> Picture:
+        """Colours, depth and labels of each pixel, as a camera sees bone and reamer now.
+
+        eye_mm, target_mm: where the camera is and what it looks at, in the plan frame with the bone at rest; without
+            `eye_mm` it is in front of the glenoid and a little above, superior up.
+        up: what is up in the picture, plan frame; by default y.
+        field_of_view_rad: from the lower edge to the upper one, of a camera of your own.
+        reamer: False leaves the reamer out, so that the bone under it is seen.
+        """
+        eye = None if eye_mm is None else _triple(eye_mm)
+        drawn = self._core.picture(
+            eye, _triple(target_mm), None if up is None else _triple(up), field_of_view_rad, width, height, reamer
+        )
+        return Picture(*drawn)
 
     def table(self, ticks: npt.ArrayLike) -> dict[str, npt.NDArray[np.float64]]:
         """The columns of trace.csv for these ticks, as `pandas.DataFrame` takes them; depth is `tool_depth_mm`.

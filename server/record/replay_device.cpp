@@ -23,6 +23,9 @@ device::DeviceInput input_of(const ops::Tick& tick) {
   return input;
 }
 
+ReplayDevice::ReplayDevice(std::vector<Cause> causes, device::DeviceTraits traits)
+    : causes_(std::move(causes)), traits_(std::move(traits)) {}
+
 ReplayDevice::ReplayDevice(const Recording& recording, uint32_t first, uint32_t last,
                            device::DeviceTraits traits)
     : traits_(std::move(traits)) {

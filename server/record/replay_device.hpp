@@ -12,6 +12,13 @@ device::DeviceInput input_of(const ops::Tick& tick);
 /// handle_given, and failed_over_tick where the recording has one.
 class ReplayDevice final : public device::HapticDevice {
  public:
+  /// What the hand did in a tick, as ops::Tick has it.
+  struct Cause {
+    QuantisedPose world_from_handle;
+    uint32_t flags = 0;
+  };
+
+  ReplayDevice(std::vector<Cause> causes, device::DeviceTraits traits);
   /// Ticks first..last-1. Error invalid_input for a damaged chunk among them.
   ReplayDevice(const Recording& recording, uint32_t first, uint32_t last, device::DeviceTraits traits);
 
@@ -29,10 +36,6 @@ class ReplayDevice final : public device::HapticDevice {
   void use_priority(int) noexcept override {}
 
  private:
-  struct Cause {
-    QuantisedPose world_from_handle;
-    uint32_t flags = 0;
-  };
   std::vector<Cause> causes_;
   size_t next_ = 0;
   device::DeviceTraits traits_;

@@ -59,6 +59,59 @@ class SimulationTest(DataFolder):
         steps = np.array([self.simulation.step(pose) for pose in poses], dtype=ream.TICK)
         self.assertTrue(same(run, steps))
 
+    def test_what_is_saved_is_what_was_stepped(self) -> None:
+        self.simulation.run(press(300))
+        snapshot = self.simulation.snapshot()
+        self.simulation.run(press(1200)[300:600], 0.5, irrigating=True)
+        self.simulation.restore(snapshot)
+        ticks = [self.simulation.run(press(300)), self.simulation.run(press(1500)[300:], 0.8)]
+        self.simulation.restore(snapshot)
+        self.assertEqual(self.simulation.tick, 300)
+        ticks = self.simulation.run(press(2600)[300:], 0.7)
+        out = self.folder / "saved"
+        self.simulation.save(out)
+        recording = ream.open(out)
+        self.assertEqual(len(recording), 2600)
+        self.assertTrue(same(recording.ticks(300), ticks))
+        self.assertTrue(recording.verify()["same"])
+        metrics = json.loads((out / "metrics.json").read_text())
+        self.assertEqual(metrics, self.simulation.metrics())
+        self.assertGreater(metrics["removed_volume_mm3"], 1.0)
+        score = json.loads((out / "score.json").read_text())
+        self.assertEqual(score["points"], self.simulation.score()["points"])
+        self.assertTrue((out / "trace.csv").exists())
+        self.assertEqual(self.simulation.tick, 2600)
+        with self.assertRaises(ream.Error):
+            self.simulation.save(out)
+        self.simulation.reset()
+        with self.assertRaises(ream.Error) as raised:
+            self.simulation.save(self.folder / "nothing")
+        self.assertEqual(raised.exception.kind, "conflict")
+        self.assertFalse((self.folder / "nothing").exists())
+
+    def test_a_saved_script_is_the_programs_own(self) -> None:
+        folder = self.simulated()
+        self.simulation.run_script()
+        out = self.folder / "saved-script"
+        self.simulation.save(out, pictures=True)
+        self.assertTrue(same(ream.open(out).ticks(), ream.open(folder).ticks()))
+        self.assertEqual((out / "trace.csv").read_bytes(), (folder / "trace.csv").read_bytes())
+        self.assertTrue((out / "snapshot.png").exists() and (out / "reamed.ply").exists())
+
+    def test_is_scored_by_rubrics(self) -> None:
+        self.simulation.run_script()
+        score = self.simulation.score()
+        self.assertIn(score["outcome"], ("pass", "fail", "undecided"))
+        rubric = self.folder / "own.json"
+        rubric.write_text(json.dumps({"name": "Own", "version": 1, "criteria": [
+            {"metric": "removed_volume_mm3", "curve": [{"at": 0, "points": 0}, {"at": 1000, "points": 100}]}]}))
+        own = self.simulation.score(rubric)
+        expected = self.simulation.metrics()["removed_volume_mm3"] / 10
+        self.assertAlmostEqual(own["points"], expected, delta=0.1)
+        with self.assertRaises(ream.Error) as raised:
+            self.simulation.score("nobody")
+        self.assertEqual(raised.exception.kind, "not_found")
+
     def test_reset_begins_again(self) -> None:
         coverage = self.simulation.coverage.copy()
         first = self.simulation.run(press(400))

@@ -190,7 +190,7 @@ writeFileSync(join(folder, 'index.html'), page(null, 'Guides', rendered('README.
 if (!apart)
   writeFileSync(
     `${folder}.html`,
-    `<!doctype html>\n<html lang="en">\n<title>Guides</title>\n<meta http-equiv="refresh" content="0; url=${basename(folder)}/">\n<a href="${basename(folder)}/">Guides</a>\n</html>\n`,
+    `<!doctype html>\n<html lang="en">\n<title>Guides</title>\n<link rel="icon" href="data:,">\n<meta http-equiv="refresh" content="0; url=${basename(folder)}/">\n<a href="${basename(folder)}/">Guides</a>\n</html>\n`,
   );
 for (const paper of papers)
   writeFileSync(join(folder, pageOf(paper)), page(paper, titleOf(paper), rendered(paper, read(paper))));
