@@ -224,6 +224,11 @@ py::tuple picture(Simulation& self, const std::optional<Triple>& eye_mm, const T
 
 void bind_moments(py::class_<Simulation>& simulation) {
   simulation
+      .def("use_feed_model",
+           [](Simulation& self, const py::object& model, const py::object& bone_type) {
+             const Simulation::Use use(self);
+             self.reaming.use(std::make_unique<OwnFeedModel>(model, bone_type));
+           })
       .def("reset",
            [](Simulation& self) {
              const Simulation::Use use(self);

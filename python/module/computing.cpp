@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <thread>
+#include <utility>
 
 namespace ream::python {
 
@@ -14,6 +15,8 @@ std::atomic<bool> python_ends{false};
 std::thread::id ending_thread;  ///< set before python_ends
 /// Threads that are on their way into Python.
 std::atomic<int> coming_back{0};
+/// What computes on this thread, and has left Python.
+thread_local Computing* computing_here = nullptr;
 
 /// Called by Python on the thread that ends it, while daemon threads still run.
 void say_that_python_ends() {
@@ -27,6 +30,23 @@ void say_that_python_ends() {
 
 void watch_end_of_python() {
   pybind11::module_::import("atexit").attr("register")(pybind11::cpp_function(&say_that_python_ends));
+}
+
+Computing::Computing() : thread_(PyEval_SaveThread()) { computing_here = this; }
+
+Computing::~Computing() {
+  come_back();
+  computing_here = nullptr;
+}
+
+WithinPython::WithinPython() : computing_(std::exchange(computing_here, nullptr)) {
+  if (computing_ != nullptr) computing_->come_back();
+}
+
+WithinPython::~WithinPython() {
+  if (computing_ == nullptr) return;
+  computing_->thread_ = PyEval_SaveThread();
+  computing_here = computing_;
 }
 
 void Computing::come_back() {

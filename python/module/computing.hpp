@@ -27,19 +27,33 @@ class PlainNumbers {
 /// For as long as C++ computes: Python's other threads go on. Nothing of Python may be touched.
 class Computing {
  public:
-  Computing() : thread_(PyEval_SaveThread()) {}
-  ~Computing() { come_back(); }
+  Computing();
+  ~Computing();
   Computing(const Computing&) = delete;
   Computing& operator=(const Computing&) = delete;
 
  private:
   friend class Signals;
+  friend class WithinPython;
   /// Into Python. A daemon thread cannot come back when Python ends, as Python would end the thread in the
   /// middle of C++: it waits for the end of the process.
   void come_back();
 
   PlainNumbers plain_;
   PyThreadState* thread_;
+};
+
+/// In the midst of Computing, back in Python for as long as it lives; where nothing computes on this thread,
+/// Python is there already.
+class WithinPython {
+ public:
+  WithinPython();
+  ~WithinPython();
+  WithinPython(const WithinPython&) = delete;
+  WithinPython& operator=(const WithinPython&) = delete;
+
+ private:
+  Computing* computing_;
 };
 
 /// Before anything computes: Python says when it ends.

@@ -57,6 +57,11 @@ Reaming::Reaming(ReamingRequest request) : data_(request.data), setup_(setup_for
   begin();
 }
 
+void Reaming::use(std::unique_ptr<OwnFeedModel> feed) {
+  own_feed_ = feed.get();
+  model_->feed = std::move(feed);
+}
+
 /// A device that has failed once is not asked again.
 void Reaming::make_state(const sim::Moment* from) {
   voxel::BoneModel& bone = setup_.bone_case.bone;
@@ -90,6 +95,7 @@ record::ops::Tick Reaming::tick(device::DeviceInput input) {
   record::TickReport report;
   if (const auto status = sim::step(*model_, *state_, input, report); status != sim::StepStatus::ok) {
     hand_ = Hand::let_go;
+    if (own_feed_ != nullptr) own_feed_->throw_raised();
     throw Error(status == sim::StepStatus::not_finite ? ErrorKind::invalid_input : ErrorKind::unavailable,
                 sim::message_of(end_of(status)));
   }
@@ -187,6 +193,10 @@ nlohmann::json Reaming::score(const std::string& rubric) const {
 
 void Reaming::save(const std::filesystem::path& folder, bool pictures, const Progress& progress) const {
   if (causes_.size() == 0) throw Error(ErrorKind::conflict, "there is nothing to save before the first step");
+  if (own_feed_ != nullptr)
+    throw Error(
+        ErrorKind::conflict,
+        "a session with a feed model of your own cannot be saved: the program could not compute it again");
   AtomicFolder made(folder);
   session::SimulationSetup setup = setup_for({setup_.request, data_});
   setup.device = std::make_unique<record::ReplayDevice>(causes_.all(), setup.device->traits());

@@ -7,6 +7,7 @@
 
 #include "core/progress.hpp"
 #include "module/cause_log.hpp"
+#include "module/own_feed_model.hpp"
 #include "module/voxel_picture.hpp"
 #include "record/recording.hpp"
 #include "score/metrics.hpp"
@@ -44,12 +45,15 @@ class Reaming {
   Reaming(const Reaming&) = delete;
   Reaming& operator=(const Reaming&) = delete;
 
+  /// Reams by it from the next tick on, in place of the feed model that was asked for.
+  void use(std::unique_ptr<OwnFeedModel> feed);
+
   /// Back to before the first tick. Whatever goes wrong in it, only another reset() or restore() goes on.
   void reset();
   /// One tick with the handle at a pose, plan frame; the first one also puts the reamer there. Errors:
   /// invalid_input for a first pose in which the reamer lies in bone, which is as if nothing had been asked;
-  /// invalid_input for a number that is not finite, and unavailable when OpenCL failed: conflict from then
-  /// on, until reset() or restore().
+  /// invalid_input for a number that is not finite, unavailable when OpenCL failed, and what a feed model in
+  /// Python raised: conflict from then on, until reset() or restore().
   record::ops::Tick step(const Pose& plan_from_handle, bool spindle_on, const device::DriveControls& drive);
   /// Error invalid_input unless step() can take it.
   void require_in_reach(const Pose& plan_from_handle) const;
@@ -101,8 +105,9 @@ class Reaming {
   std::unique_ptr<sim::State> state_;
   std::optional<score::MetricsAccumulator> metrics_;
   std::optional<sim::PoseWatchdog> watchdog_;
-  device::DeviceInput input_;  ///< the last
-  CauseLog causes_;            ///< since tick 0
+  OwnFeedModel* own_feed_ = nullptr;  ///< the model's, where it has one
+  device::DeviceInput input_;         ///< the last
+  CauseLog causes_;                   ///< since tick 0
   Hand hand_ = Hand::nobody_yet;
 };
 

@@ -20,6 +20,7 @@ got), and at the end the rubric's points on top, a hundredth each. So an episode
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any, Final
 
 import numpy as np
@@ -92,11 +93,12 @@ class Reaming(Env[Observation, Action]):
         case: str = "demo",
         *,
         max_time_s: float = 40.0,
-        rubric: str = "standard",
+        rubric: str | Callable[[dict[str, Any]], float] = "standard",
         render_mode: str | None = None,
         **simulation: Any,
     ) -> None:
-        """case, simulation: as those of ream.Simulation. rubric: what the end is judged by, see Simulation.score().
+        """case, simulation: as those of ream.Simulation. rubric: what the end is judged by, see
+        Simulation.score(); or a function of your own that gives points, 0 to 100, for metrics as metrics() has them.
 
         max_time_s: of an episode, in simulated seconds.
         """
@@ -165,7 +167,7 @@ class Reaming(Env[Observation, Action]):
         if terminated or truncated:
             self._ended = True
             info["metrics"] = self.simulation.metrics()
-            info["score"] = self.simulation.score(self.rubric)
+            info["score"] = self._score(info["metrics"])
             reward += (info["score"]["points"] or 0.0) / 100.0
         return self._observe(), float(reward), terminated, truncated, info
 
@@ -188,6 +190,11 @@ class Reaming(Env[Observation, Action]):
         left = abs(self.planned_depth_mm - depth)
         apart = (left + math.hypot(x_mm, y_mm)) / _FAR_MM + math.hypot(tilt_x, tilt_y) / _FAR_RAD
         return max(0.0, 1.0 - apart / 3.0)
+
+    def _score(self, metrics: dict[str, Any]) -> dict[str, Any]:
+        if callable(self.rubric):
+            return {"points": float(self.rubric(metrics)), "outcome": None}
+        return self.simulation.score(self.rubric)
 
     def _decided(self, action: npt.NDArray[np.float64]) -> tuple[float, npt.NDArray[np.float64], float]:
         """Of an action within its bounds: push in N, how far the hand moves x, y and tilts, and the trigger."""

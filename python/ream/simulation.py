@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ream import _ream
+from ream.models import Device, EngagedBone, FeedModel
 from ream.pictures import Picture
 from ream.ticks import TICK, Frames
 
@@ -58,7 +59,7 @@ class Simulation(Frames):
         reamer_axis: Sequence[float] | None = None,
         point_spacing_mm: float = 0.3,
         force_scale: float | None = None,
-        feed_model: str | None = None,
+        feed_model: str | FeedModel | None = None,
         removal: str = "profile",
         backend: str = "cpu",
         seed: int = 1,
@@ -73,7 +74,8 @@ class Simulation(Frames):
         reamer_axis: of a mesh file, in its mm: a point of the axis and the feed direction, x, y, z each; else estimated.
         point_spacing_mm: distance of the points of the reamer that feel bone, 0.02 to 5.
         force_scale: simulated newtons for each newton of the hand, 0.01 to 1000; else the script's.
-        feed_model: how fast the reamer cuts, such as "edge"; else the script's. docs/scripting.md lists them.
+        feed_model: how fast the reamer cuts, such as "edge" (docs/scripting.md lists them), or an object of your own
+            as ream.models.FeedModel; else the script's.
         removal: "profile", or "decay" as in the thesis.
         backend: "cpu", "opencl" or "opencl:1". They give the same bits.
         seed: of all that is random, such as tremor and vibration.
@@ -93,12 +95,14 @@ class Simulation(Frames):
             None if reamer_axis is None else [float(number) for number in reamer_axis],
             point_spacing_mm,
             force_scale,
-            feed_model or "",
+            feed_model if isinstance(feed_model, str) else "",
             removal,
             backend,
             seed,
             data,
         )
+        if feed_model is not None and not isinstance(feed_model, str):
+            self._core.use_feed_model(feed_model, EngagedBone)
 
     def __repr__(self) -> str:
         return f"<ream.Simulation of case {self._core.case!r}, {self._core.reamer}, after {self.tick} ticks>"
@@ -145,6 +149,21 @@ class Simulation(Frames):
         """
         rows: npt.NDArray[np.void] = self._core.run_script(_MANY_TICKS if ticks is None else ticks)
         return rows
+
+    def run_device(self, device: Device, ticks: int | None = None) -> npt.NDArray[np.void]:
+        """A device of your own moves the handle: read() before each tick, write() after it, until it gives None.
+
+        ticks: at most so many.
+        """
+        rows: list[np.void] = []
+        while ticks is None or len(rows) < ticks:
+            asked = device.read()
+            if asked is None:
+                break
+            pose, trigger = asked
+            rows.append(self.step(pose, trigger))
+            device.write(rows[-1])
+        return np.array(rows, TICK)
 
     def snapshot(self) -> _ream.Snapshot:
         """This moment, to go back to with restore(): bone, reamer, drive, heat and vibration.

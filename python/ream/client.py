@@ -1,0 +1,236 @@
+"""A server's REST API from Python: a method for each of its operations.
+
+    from ream.client import Client
+
+    client = Client("http://127.0.0.1:8080", token="...")
+    for session in client.list_sessions(limit=10)["sessions"]:
+        print(session["id"], session["state"])
+
+`help(ream.client.Client)` lists the operations; the server describes them at /api. Answers are what the JSON says.
+What the server refuses is a ClientError, with its sentence about what to do.
+"""
+
+from __future__ import annotations
+
+import http.client
+import json
+import os
+import pathlib
+import shutil
+import ssl
+import time
+import urllib.parse
+from collections.abc import AsyncIterator
+from typing import Any
+
+from ream._operations import Operations, _Content
+from ream._ream import Error
+
+_PIECE_BYTES = 1 << 20
+_KINDS = {
+    400: "invalid_input",
+    404: "not_found",
+    409: "conflict",
+    413: "invalid_input",
+    422: "invalid_input",
+    429: "unavailable",
+    503: "unavailable",
+}
+
+
+class ClientError(Error):
+    """What a server refused, or why it could not be asked.
+
+    `status` is that of HTTP, 0 where there was no answer; `problem` is the whole answer, where it was problem+json.
+    """
+
+    def __init__(self, message: str, status: int = 0, problem: dict[str, Any] | None = None) -> None:
+        super().__init__(message)
+        self.status = status
+        self.problem = problem or {}
+        self.kind = _KINDS.get(status, "invalid_input" if 400 <= status < 500 else "unavailable")
+
+
+class Client(Operations):
+    """One server, asked by one user. Threads may share it."""
+
+    def __init__(
+        self, url: str, token: str | None = None, *, timeout_s: float = 60.0, tls: ssl.SSLContext | None = None
+    ) -> None:
+        """url: such as http://127.0.0.1:8080, with the path before /api where there is one.
+
+        token: of `ream user token` or add_token(); a server without users needs none.
+        timeout_s: that the server may be silent. tls: for certificates of your own.
+        """
+        parts = urllib.parse.urlsplit(url)
+        try:
+            port = parts.port
+        except ValueError:
+            port = -1
+        if parts.scheme not in ("http", "https") or not parts.hostname or port == -1 or parts.query or parts.fragment:
+            raise ClientError(f"{url!r} is not the address of a server; it is like http://127.0.0.1:8080")
+        if token is not None and not (token.isascii() and token.isprintable()):
+            raise ClientError("a token has printable ASCII characters only")
+        self.url = url.rstrip("/")
+        self._host, self._port = parts.hostname, port
+        self._prefix = parts.path.rstrip("/")
+        self._token = token
+        self._timeout_s = timeout_s
+        self._tls = (tls or ssl.create_default_context()) if parts.scheme == "https" else None
+
+    def __repr__(self) -> str:
+        return f"<ream.client.Client of {self.url}>"
+
+    def upload(self, path: str | os.PathLike[str]) -> str:
+        """Sends a file in pieces; the answer is what bodies call `upload_id`. A lost piece is sent again."""
+        file = pathlib.Path(path)
+        with file.open("rb") as content:
+            size = os.fstat(content.fileno()).st_size
+            upload = self.begin_upload({"name": file.name, "bytes": size})
+            sent = 0
+            while sent < size:
+                content.seek(sent)
+                upload = self.append_to_upload(upload["id"], content.read(_PIECE_BYTES), offset=sent)
+                sent = upload["received"]
+        identity: str = upload["id"]
+        return identity
+
+    def wait(self, job: str, *, timeout_s: float = 3600.0) -> dict[str, Any]:
+        """Waits for a job's end and returns it. Raises ClientError where it failed, was cancelled, or takes longer."""
+        until = time.monotonic() + timeout_s
+        while True:
+            told: dict[str, Any] = self.get_job(job)
+            if told["state"] == "done":
+                return told
+            if told["state"] in ("failed", "cancelled"):
+                why = (told["problem"] or {}).get("detail", "no reason given")
+                raise ClientError(f"job {job} {told['state']}: {why}")
+            if time.monotonic() > until:
+                raise ClientError(f"job {job} is not done after {timeout_s:g} s")
+            time.sleep(0.2)
+
+    def wait_until_ready(self, *, timeout_s: float = 300.0) -> None:
+        """Waits until the server can make sessions: it may have just begun."""
+        until = time.monotonic() + timeout_s
+        while True:
+            try:
+                self.get_readiness()
+                return
+            except ClientError as error:
+                if error.status not in (0, 503) or time.monotonic() > until:
+                    raise
+            time.sleep(0.2)
+
+    async def changes(self, since: int | None = None) -> AsyncIterator[dict[str, Any]]:
+        """What changes on the server, as it happens, from after message `since`. Needs python3-websockets.
+
+        The first is `hello`; the contract's ChangeMessage describes the others. Ends when the server closes.
+        """
+        try:
+            import websockets
+        except ImportError:
+            raise ImportError("Client.changes() needs websockets: apt install python3-websockets") from None
+        headers = {"Authorization": f"Bearer {self._token}"} if self._token else {}
+        address = self.listen_to_changes(since=since)
+        async with websockets.connect(address, extra_headers=headers, ssl=self._tls) as socket:
+            async for message in socket:
+                yield json.loads(message)
+
+    def _address(self, path: str, query: dict[str, Any] | None = None) -> str:
+        return "ws" + self.url.removeprefix("http") + path + _encoded(query)
+
+    @staticmethod
+    def _filled(path: str, **parts: str | int) -> str:
+        for name, part in parts.items():
+            text = str(part)
+            if text in ("", ".", ".."):
+                raise ClientError(f"{name} must not be {text!r}")
+            path = path.replace("{" + name + "}", urllib.parse.quote(text, safe=""))
+        return path
+
+    def _ask(
+        self,
+        method: str,
+        path: str,
+        *,
+        query: dict[str, Any] | None = None,
+        headers: dict[str, str | None] | None = None,
+        body: Any = None,
+        content: _Content | None = None,
+        to_file: str | os.PathLike[str] | None = None,
+    ) -> Any:
+        sent = {name: value for name, value in (headers or {}).items() if value is not None}
+        if self._token:
+            sent["Authorization"] = f"Bearer {self._token}"
+        if body is not None:
+            content = json.dumps(body, allow_nan=False).encode()
+            sent["Content-Type"] = "application/json"
+        elif content is not None:
+            sent["Content-Type"] = "application/octet-stream"
+        connection = self._connection()
+        try:
+            connection.request(method, self._prefix + path + _encoded(query), bytes(content or b"") or None, sent)
+            reply = connection.getresponse()
+            return _answer(reply, to_file)
+        except (OSError, http.client.HTTPException) as failure:
+            raise ClientError(f"{self.url} cannot be asked: {failure or type(failure).__name__}") from None
+        finally:
+            connection.close()
+
+    def _connection(self) -> http.client.HTTPConnection:
+        if self._tls is not None:
+            return http.client.HTTPSConnection(self._host, self._port, timeout=self._timeout_s, context=self._tls)
+        return http.client.HTTPConnection(self._host, self._port, timeout=self._timeout_s)
+
+
+def _encoded(query: dict[str, Any] | None) -> str:
+    words = {True: "true", False: "false"}
+    there = {
+        name: words[value] if isinstance(value, bool) else value
+        for name, value in (query or {}).items()
+        if value is not None
+    }
+    return "?" + urllib.parse.urlencode(there) if there else ""
+
+
+def _answer(reply: http.client.HTTPResponse, to: str | os.PathLike[str] | None) -> Any:
+    kind = (reply.getheader("Content-Type") or "").split(";")[0].strip()
+    if reply.status >= 400:
+        raise _refusal(reply, kind)
+    if to is not None:
+        return _saved(reply, pathlib.Path(to))
+    content = reply.read()
+    if kind == "application/json":
+        return json.loads(content)
+    return content if content or kind else None
+
+
+def _refusal(reply: http.client.HTTPResponse, kind: str) -> ClientError:
+    content = reply.read()
+    problem: Any = None
+    if kind == "application/problem+json":
+        try:
+            problem = json.loads(content)
+        except ValueError:
+            problem = None
+    if not isinstance(problem, dict):
+        return ClientError(f"the server answered {reply.status} {reply.reason}", reply.status)
+    message = str(problem.get("detail") or problem.get("title") or reply.reason)
+    return ClientError(message, reply.status, problem)
+
+
+def _saved(reply: http.client.HTTPResponse, path: pathlib.Path) -> pathlib.Path:
+    """Under a name of its own until all of it has come."""
+    unfinished = path.with_name(path.name + ".part")
+    try:
+        with unfinished.open("wb") as file:
+            shutil.copyfileobj(reply, file)
+            file.flush()
+            os.fsync(file.fileno())
+        expected = reply.getheader("Content-Length")
+        if expected is not None and int(expected) != unfinished.stat().st_size:
+            raise ClientError("the server ended before the file was whole")
+        unfinished.rename(path)
+    finally:
+        unfinished.unlink(missing_ok=True)
+    return path
