@@ -7,6 +7,7 @@ import signal
 import socket
 import subprocess
 import threading
+import time
 import unittest
 
 import ream
@@ -58,10 +59,10 @@ class ClientTest(DataFolder):
         with contextlib.suppress(ClientError):
             self.client.start_session(identity)
         while self.client.get_session(identity)["tick"] < 1500:
-            pass
+            time.sleep(0.1)
         self.client.stop_session(identity)
         while self.client.get_session(identity)["state"] == "running":
-            pass
+            time.sleep(0.1)
         return identity
 
     def test_the_operations_are_those_of_the_contract(self) -> None:
@@ -90,7 +91,7 @@ class ClientTest(DataFolder):
             self.client.wait(snapshot["id"], timeout_s=60)
             snapshot = self.client.get_snapshot(identity)
         self.assertEqual(snapshot[:4], b"\x89PNG")
-        self.client.annotate_session(identity, {"tick": 100, "text": "Steady"})
+        self.client.annotate_session(identity, {"words": "Steady"})
         job = self.client.export_session(identity, {"format": "csv", "stride": 10})
         self.client.wait(job["id"], timeout_s=60)
         rows = self.client.get_job_result(job["id"]).decode().splitlines()
@@ -129,7 +130,7 @@ class ClientTest(DataFolder):
             return heard
 
         heard = asyncio.run(asyncio.wait_for(first_change(), 30))
-        self.assertEqual(heard[0]["type"], "hello")
+        self.assertEqual(heard[0]["kind"], "hello")
         self.assertGreater(len(heard), 1)
 
     def test_every_operation_can_be_called(self) -> None:
