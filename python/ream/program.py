@@ -126,6 +126,12 @@ def femesh(source: str | os.PathLike[str], out: str | os.PathLike[str], **option
     return told
 
 
+def solve(source: str | os.PathLike[str], **options: Value) -> dict[str, Any]:
+    """`ream solve`: voxels compressed between platens. Returns the apparent modulus, its bounds, and strains."""
+    told: dict[str, Any] = run("solve", source, **options)
+    return told
+
+
 def render(what: str | os.PathLike[str], out: str | os.PathLike[str]) -> pathlib.Path:
     """`ream render`: a case or a session as a picture (PNG); see also Simulation.picture()."""
     return pathlib.Path(run("render", what, out=out)["out"])

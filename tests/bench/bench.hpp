@@ -41,6 +41,8 @@ std::vector<Row> record_suite(const Options& options);
 std::vector<Row> rest_suite(const Options& options);
 /// What scores cost, while a session goes on, when it has ended, and of many sessions anew.
 std::vector<Row> score_suite(const Options& options);
+/// What it takes to solve bone of millions of voxels.
+std::vector<Row> solve_suite(const Options& options);
 /// How soon many sessions are listed and filtered, on both kinds of database.
 std::vector<Row> store_suite(const Options& options);
 std::vector<Row> surface_suite(const Options& options);

@@ -13,11 +13,12 @@ namespace {
 using namespace ream::bench;
 
 const std::map<std::string, std::function<std::vector<Row>(const Options&)>> suites{
-    {"case", case_suite},         {"collide", collide_suite},   {"femesh", femesh_suite},
-    {"hostile", hostile_suite},   {"loop", loop_suite},         {"python", python_suite},
-    {"record", record_suite},     {"rest", rest_suite},         {"score", score_suite},
-    {"store", store_suite},       {"surface", surface_suite},   {"truth", truth_suite},
-    {"validate", validate_suite}, {"voxelize", voxelize_suite}, {"web", web_suite}};
+    {"case", case_suite},       {"collide", collide_suite},   {"femesh", femesh_suite},
+    {"hostile", hostile_suite}, {"loop", loop_suite},         {"python", python_suite},
+    {"record", record_suite},   {"rest", rest_suite},         {"score", score_suite},
+    {"solve", solve_suite},     {"store", store_suite},       {"surface", surface_suite},
+    {"truth", truth_suite},     {"validate", validate_suite}, {"voxelize", voxelize_suite},
+    {"web", web_suite}};
 
 bool missed(const Row& row) {
   return row.goal > 0.0 && (row.goal_is == Goal::at_most ? row.ours > row.goal : row.ours < row.goal);

@@ -26,6 +26,7 @@ void add_import_command(CLI::App& app, GlobalOptions& options);
 void add_plan_command(CLI::App& app, GlobalOptions& options);
 void add_voxelize_command(CLI::App& app, GlobalOptions& options);
 void add_femesh_command(CLI::App& app, GlobalOptions& options);
+void add_solve_command(CLI::App& app, GlobalOptions& options);
 void add_simulate_command(CLI::App& app, GlobalOptions& options);
 /// Returns what the server is asked for, which is known once `app` has parsed.
 std::shared_ptr<const ServeOptions> add_serve_command(CLI::App& app, GlobalOptions& options);

@@ -9,7 +9,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/terminal_progress.hpp"
 #include "app/mesh_source.hpp"
-#include "app/numbers.hpp"
+#include "app/modulus_options.hpp"
 #include "app/open_database.hpp"
 #include "core/clock.hpp"
 #include "core/data_folder.hpp"
@@ -25,7 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct FemeshOptions {
-  std::string input, case_name, modulus, law, bin_value = "centre", axis, platens = "sliding";
+  std::string input, case_name, bin_value = "centre", axis, platens = "sliding";
+  ModulusOptions modulus;
   fs::path out;
   std::optional<double> threshold, bin_width_mpa;
   double poisson = 0.3, strain_percent = 1.0;
@@ -33,29 +34,6 @@ struct FemeshOptions {
   uint64_t memory_mb = 0;
   bool keep_islands = false, node_sets = false, check = false;
 };
-
-fe::ModulusLaw given_law(const std::string& modulus) {
-  const auto commas = std::count(modulus.begin(), modulus.end(), ',');
-  const auto n = parse_numbers(modulus, commas == 2 ? 3 : 2, "--modulus");
-  return n.size() == 3 ? fe::power_law(n[0], n[1], n[2]) : fe::linear_law(n[0], n[1]);
-}
-
-/// What was asked for, else Morgan's law for densities; gray values of an unknown scale are taken as MPa.
-fe::ModulusLaw law_for(const FemeshOptions& options, fe::ElementModel& model) {
-  if (!options.modulus.empty() && !options.law.empty())
-    throw Error(ErrorKind::usage, "--modulus and --law exclude each other");
-  if (!options.modulus.empty()) return given_law(options.modulus);
-  if (!options.law.empty()) {
-    const fe::NamedLaw& named = fe::law_of_name(options.law);
-    if (named.of_density && !model.gray_is_density_g_cc)
-      model.remarks.push_back("law " + named.law.name +
-                              " is of apparent density in g/cc; gray values were taken as such");
-    return named.law;
-  }
-  if (model.gray_is_density_g_cc) return fe::default_density_law().law;
-  model.remarks.push_back("no --modulus was given, so gray values were taken as moduli in MPa");
-  return fe::linear_law(0.0, 1.0);
-}
 
 fe::MeshOptions mesh_options(const FemeshOptions& options) {
   fe::MeshOptions mesh;
@@ -157,7 +135,7 @@ void femesh(const FemeshOptions& options, const GlobalOptions& global) {
   note_reading(global.db, data, "data.mesh", {options.input, options.case_name});
   const MeshSource source{options.input, options.case_name, options.threshold, data};
   fe::ElementModel model = open_mesh_source(source, budget, part_of(std::cref(progress), 0.0, 0.3));
-  mesh.rule.law = law_for(options, model);
+  mesh.rule.law = options.modulus.law_for(model);
   fe::ElementModel about;
   about.remarks = model.remarks;
   const double read_ms = elapsed_us(start) * 1e-3;
@@ -169,13 +147,6 @@ void femesh(const FemeshOptions& options, const GlobalOptions& global) {
     std::cout << json_of(report, about, read_ms, time_ms).dump() << '\n';
   else
     print(report, options, time_ms);
-}
-
-std::string names_of_laws() {
-  std::string names;
-  for (const fe::NamedLaw& named : fe::named_laws())
-    names += (names.empty() ? "" : "; ") + named.law.description();
-  return names;
 }
 
 }  // namespace
@@ -194,9 +165,7 @@ void add_femesh_command(CLI::App& app, GlobalOptions& global) {
   command->add_option("--upsample", options->upsample, "Parts of a voxel per axis")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
-  command->add_option("--modulus", options->modulus,
-                      "A,B: E = A + B g; A,B,C: E = A + B g^C, MPa, of gray value g");
-  command->add_option("--law", options->law, "A law by its name: " + names_of_laws());
+  options->modulus.add_to(*command);
   command->add_option("--poisson", options->poisson, "Poisson's ratio")->capture_default_str();
   command->add_option("--bins", options->bin_width_mpa, "Put moduli into bins of this width, MPa");
   command

@@ -42,6 +42,7 @@ void add_commands(CLI::App& app, ream::app::GlobalOptions& global) {
   add_plan_command(app, global);
   add_voxelize_command(app, global);
   add_femesh_command(app, global);
+  add_solve_command(app, global);
   add_score_command(app, global);
   add_benchmark_command(app, global);
   add_export_command(app, global);
@@ -87,7 +88,7 @@ int run(int argc, char** argv, bool for_programs) {
   add_commands(app, global);
   for (const char* writing :
        {"serve", "simulate", "phantom", "import", "plan", "score", "benchmark", "replay", "export", "render",
-        "femesh", "devices", "audit", "user", "backup", "restore"})
+        "femesh", "solve", "devices", "audit", "user", "backup", "restore"})
     app.get_subcommand(writing)->preparse_callback([](size_t) { ream::restrict_new_files_to_owner(); });
   ream::take_failed_writes_as_errors();
   ream::device::take_force_away_on_crash();

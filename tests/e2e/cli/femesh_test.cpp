@@ -37,6 +37,23 @@ TEST_F(Femesh, TextRowsBecomeAMeshThatIsChecked) {
             8000);
 }
 
+TEST_F(Femesh, BoneIsCompressed) {
+  rows(8);
+  const auto solved = answer({"solve", "rows.txt", "--modulus", "0,10", "--axis", "y"});
+  EXPECT_EQ(solved["elements"], 512);
+  EXPECT_EQ(solved["converged"], true);
+  EXPECT_GT(solved["modulus_mpa"], solved["reuss_mpa"]);
+  EXPECT_LT(solved["modulus_mpa"], solved["voigt_mpa"]);
+  EXPECT_EQ(answer({"solve", "rows.txt", "--modulus", "0,10", "--axis", "y", "--threads", "1"})["force_n"],
+            solved["force_n"]);
+  EXPECT_EQ(answer({"solve", "rows.txt", "--upsample", "2", "--modulus", "0,10"})["elements"], 4096);
+  refuse(1, "not converged after 1 iterations",
+         {"solve", "rows.txt", "--max-iterations", "1", "--platens", "fixed", "--tolerance", "1e-12"});
+  refuse(1, "nowhere", {"solve", "nowhere"});
+  refuse(2, "--axis", {"solve", "rows.txt", "--axis", "w"});
+  refuse(1, "no voxel is bone", {"solve", "rows.txt", "--threshold", "5000"});
+}
+
 TEST_F(Femesh, TextRowsAsMimicsWritesThem) {
   std::string text;
   for (int i = 0; i < 4 * 4 * 4; ++i) {

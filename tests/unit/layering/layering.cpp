@@ -20,7 +20,7 @@ using Rooms = std::map<std::string, std::set<std::string>>;
 /// The arrows as the house plan draws them, before following them further.
 const Rooms& drawn_arrows() {
   static const Rooms arrows{
-      {"app", {"api", "fe"}},
+      {"app", {"api", "solve"}},
       {"api", {"study", "workup"}},
       {"workup", {"jobs"}},
       {"reader", {"ct", "record", "store"}},
@@ -34,6 +34,7 @@ const Rooms& drawn_arrows() {
       {"score", {"record", "surface", "render", "statistics"}},
       {"report", {"score"}},
       {"ct", {"case", "isolation", "surface"}},
+      {"solve", {"fe"}},
       {"fe", {"case"}},
       {"case", {"voxel", "shell", "force"}},
       {"shell", {"voxel", "voxelizer"}},

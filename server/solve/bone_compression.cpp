@@ -1,0 +1,216 @@
+#include "solve/bone_compression.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/clock.hpp"
+#include "core/error.hpp"
+#include "solve/elastic_operator.hpp"
+#include "solve/parallel_vectors.hpp"
+
+namespace ream::solve {
+namespace {
+
+/// The elements' box, and what each of its cells is made of.
+struct Cells {
+  Vec3i dims = Vec3i::Zero();
+  std::vector<float> moduli_mpa;  ///< x fastest; 0 without bone
+};
+
+struct Bounds {
+  Vec3i low = Vec3i::Constant(1 << 30), high = Vec3i::Constant(-1);  ///< `high` is the last
+};
+
+template <typename Use>
+void for_each_row_run(const fe::VoxelMask& mask, Use&& use) {
+  for (int w = 0; w < mask.dims().z(); ++w)
+    for (int v = 0; v < mask.dims().y(); ++v)
+      fe::for_each_run(mask.row(v, w), mask.words_per_row(),
+                       [&](int begin, int end) { use(begin, end, v, w); });
+}
+
+Bounds bounds_of_elements(const fe::VoxelMask& mask) {
+  Bounds bounds;
+  for_each_row_run(mask, [&](int begin, int end, int v, int w) {
+    bounds.low = bounds.low.cwiseMin(Vec3i(begin, v, w));
+    bounds.high = bounds.high.cwiseMax(Vec3i(end - 1, v, w));
+  });
+  return bounds;
+}
+
+Cells cells_of(const fe::ElementModel& model, const fe::Materials& materials) {
+  const Bounds bounds = bounds_of_elements(model.mask);
+  Cells cells;
+  cells.dims = bounds.high - bounds.low + Vec3i::Ones();
+  const double corners = (cells.dims.cast<double>().array() + 1.0).prod();
+  if (corners >= 2147483648.0)
+    throw Error(ErrorKind::invalid_input,
+                "the box around the bone has more than 2^31 corners; choose a smaller region");
+  cells.moduli_mpa.assign(static_cast<size_t>(cells.dims.cast<int64_t>().prod()), 0.0f);
+  uint64_t element = 0;
+  std::vector<uint16_t> scratch;
+  for_each_row_run(model.mask, [&](int begin, int end, int v, int w) {
+    const auto count = static_cast<size_t>(end - begin);
+    const Vec3i at = Vec3i(begin, v, w) - bounds.low;
+    float* to =
+        cells.moduli_mpa.data() + static_cast<size_t>(at.x()) +
+        static_cast<size_t>(cells.dims.x()) *
+            (static_cast<size_t>(at.y()) + static_cast<size_t>(cells.dims.y()) * static_cast<size_t>(at.z()));
+    for (const uint16_t code : model.codes.read(element, count, scratch))
+      *to++ = static_cast<float>(materials.list[materials.of_code[code]].modulus_mpa);
+    element += count;
+  });
+  return cells;
+}
+
+/// Corners at both ends of the axis, held.
+struct Platens {
+  std::vector<size_t> base, top;
+};
+
+Platens hold_platens(ElasticGrid& grid, const fe::Compression& compression) {
+  Platens platens;
+  for (size_t corner = 0; corner < grid.corners(); ++corner) {
+    const int at = grid.place_of(corner)[compression.axis];
+    if (at != 0 && at != grid.dims()[compression.axis]) continue;
+    (at == 0 ? platens.base : platens.top).push_back(corner);
+    for (int axis = 0; axis < 3; ++axis)
+      if (axis == compression.axis || compression.fixed_platens) grid.hold(corner, axis);
+  }
+  return platens;
+}
+
+/// Each layer is where it is in a body that is the same all through.
+std::vector<double> even_compression(const ElasticGrid& grid, const fe::Compression& compression) {
+  std::vector<double> displacements(3 * grid.corners(), 0.0);
+  const auto axis = static_cast<size_t>(compression.axis);
+  for (size_t corner = 0; corner < grid.corners(); ++corner)
+    displacements[3 * corner + axis] =
+        -compression.strain * grid.cell_mm()[compression.axis] * grid.place_of(corner)[compression.axis];
+  return displacements;
+}
+
+/// sqrt(u K u / V) of each element for a modulus of 1: its energy over its modulus.
+std::vector<float> effective_strains(const ElasticGrid& grid, double poisson,
+                                     const std::vector<double>& displacements, ThreadPool& pool) {
+  const BoxElement box(grid.cell_mm(), poisson);
+  const double volume_mm3 = grid.cell_mm().prod();
+  std::vector<float> strains(grid.elements());
+  for_parts(pool, strains.size(), [&](size_t begin, size_t end) {
+    Eigen::Matrix<double, 24, 1> u;
+    for (size_t e = begin; e < end; ++e) {
+      for (int c = 0; c < 8; ++c) {
+        const auto corner =
+            static_cast<size_t>(grid.corner_of()[grid.first_places()[e] + grid.corner_offset(c)]);
+        for (int k = 0; k < 3; ++k) u[3 * c + k] = displacements[3 * corner + static_cast<size_t>(k)];
+      }
+      strains[e] = static_cast<float>(std::sqrt(std::max(0.0, u.dot(box.stiffness * u) / volume_mm3)));
+    }
+  });
+  return strains;
+}
+
+std::array<double, 4> quantiles(std::vector<float> strains) {
+  std::array<double, 4> found{};
+  const std::array<double, 4> shares{0.5, 0.95, 0.99, 1.0};
+  for (size_t i = 0; i < shares.size(); ++i) {
+    const auto at = static_cast<ptrdiff_t>(shares[i] * static_cast<double>(strains.size() - 1));
+    std::nth_element(strains.begin(), strains.begin() + at, strains.end());
+    found[i] = double{strains[static_cast<size_t>(at)]};
+  }
+  return found;
+}
+
+void describe_bounds(const ElasticGrid& grid, const fe::Materials& materials, CompressionResult& result) {
+  const double cells = grid.dims().cast<double>().prod();
+  double compliance = 0.0;
+  for (const fe::Material& material : materials.list) {
+    const double share = static_cast<double>(material.elements) / cells;
+    result.voigt_mpa += share * material.modulus_mpa;
+    compliance += share / material.modulus_mpa;
+  }
+  result.bone_share = static_cast<double>(grid.elements()) / cells;
+  if (static_cast<double>(grid.elements()) == cells) result.reuss_mpa = 1.0 / compliance;
+}
+
+void describe_forces(const ElasticGrid& grid, const Platens& platens, const CompressionRequest& request,
+                     const std::vector<double>& displacements, ThreadPool& pool, CompressionResult& result) {
+  std::vector<double> forces(displacements.size());
+  ElasticOperator<double>(grid, request.rule.poisson).apply_with_reactions(displacements, forces, pool);
+  const int axis = request.compression.axis;
+  const auto sum = [&](const std::vector<size_t>& corners) {
+    double all = 0.0;
+    for (const size_t corner : corners) all += forces[3 * corner + static_cast<size_t>(axis)];
+    return all;
+  };
+  const double base = sum(platens.base), top = sum(platens.top);
+  result.force_n = base;
+  result.imbalance = base != 0.0 ? std::abs(base + top) / std::abs(base) : 0.0;
+  const double area_mm2 = result.box_mm.prod() / result.box_mm[axis];
+  result.modulus_mpa = base / area_mm2 / request.compression.strain;
+}
+
+}  // namespace
+
+CompressionResult compress(fe::ElementModel model, const CompressionRequest& request, MemoryBudget& budget,
+                           const Progress& progress) {
+  if (model.codes.size() == 0)
+    throw Error(ErrorKind::invalid_input,
+                "no voxel is bone, so there is nothing to solve; give a lower --threshold or another region");
+  if (!(request.compression.strain > 0.0 && request.compression.strain < 1.0))
+    throw Error(ErrorKind::usage, "the strain must be above 0 and below 100 %");
+  CompressionResult result;
+  auto start = SteadyClock::now();
+  if (!request.keep_islands)
+    result.components = keep_largest_component(model, budget, part_of(progress, 0.0, 0.05));
+  const fe::Materials materials = make_materials(fe::histogram_of(model.codes), model.gray, request.rule);
+  const Cells cells = cells_of(model, materials);
+  const Vec3 spacing_mm = model.spacing_mm;
+  model = {};
+  ElasticGrid grid(cells.dims, spacing_mm, cells.moduli_mpa);
+  const Platens platens = hold_platens(grid, request.compression);
+  ThreadPool pool(request.threads);
+  result.elements = grid.elements();
+  result.corners = grid.corners();
+  result.box_mm = grid.dims().cast<double>().cwiseProduct(spacing_mm);
+  describe_bounds(grid, materials, result);
+  result.build_s = elapsed_us(start) * 1e-6;
+  start = SteadyClock::now();
+  const Solution solution = solve(grid, request.rule.poisson, even_compression(grid, request.compression),
+                                  request.limits, pool, part_of(progress, 0.05, 1.0));
+  result.solve_s = elapsed_us(start) * 1e-6;
+  result.iterations = solution.iterations;
+  result.relative_residual = solution.relative_residual;
+  result.converged = solution.converged;
+  describe_forces(grid, platens, request, solution.displacements_mm, pool, result);
+  result.effective_strain =
+      quantiles(effective_strains(grid, request.rule.poisson, solution.displacements_mm, pool));
+  return result;
+}
+
+nlohmann::json to_json(const CompressionResult& r) {
+  return {{"elements", r.elements},
+          {"corners", r.corners},
+          {"islands", r.components.components > 0 ? r.components.components - 1 : 0},
+          {"island_voxels", r.components.removed_voxels},
+          {"box_mm", {r.box_mm.x(), r.box_mm.y(), r.box_mm.z()}},
+          {"bone_share", r.bone_share},
+          {"force_n", r.force_n},
+          {"imbalance", r.imbalance},
+          {"modulus_mpa", r.modulus_mpa},
+          {"voigt_mpa", r.voigt_mpa},
+          {"reuss_mpa", r.reuss_mpa > 0.0 ? nlohmann::json(r.reuss_mpa) : nlohmann::json(nullptr)},
+          {"effective_strain",
+           {{"median", r.effective_strain[0]},
+            {"q95", r.effective_strain[1]},
+            {"q99", r.effective_strain[2]},
+            {"greatest", r.effective_strain[3]}}},
+          {"iterations", r.iterations},
+          {"relative_residual", r.relative_residual},
+          {"converged", r.converged},
+          {"build_s", r.build_s},
+          {"solve_s", r.solve_s}};
+}
+
+}  // namespace ream::solve
