@@ -75,6 +75,7 @@ if(TARGET ream_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
       "ream (= ${PROJECT_VERSION}), python3-numpy (<< 1:2), python3 (>= 3.${REAM_PYTHON_MINOR}), python3 (<< 3.${next_minor})")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-h5py, python3-websockets")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
       "${CMAKE_SOURCE_DIR}/packaging/python/postinst;${CMAKE_SOURCE_DIR}/packaging/python/prerm")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION ON)

@@ -15,6 +15,8 @@ std::atomic<bool> python_ends{false};
 std::thread::id ending_thread;  ///< set before python_ends
 /// Threads that are on their way into Python.
 std::atomic<int> coming_back{0};
+/// Threads that are in Python in the midst of computing.
+std::atomic<int> within{0};
 /// What computes on this thread, and has left Python.
 thread_local Computing* computing_here = nullptr;
 
@@ -23,7 +25,10 @@ void say_that_python_ends() {
   ending_thread = std::this_thread::get_id();
   python_ends = true;
   const pybind11::gil_scoped_release let_them_in;
-  while (coming_back > 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  // Those within Python come out in a moment, if they do: what they call may never return.
+  const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(2);
+  while (coming_back > 0 || (within > 0 && std::chrono::steady_clock::now() < until))
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 }  // namespace
@@ -40,19 +45,23 @@ Computing::~Computing() {
 }
 
 WithinPython::WithinPython() : computing_(std::exchange(computing_here, nullptr)) {
-  if (computing_ != nullptr) computing_->come_back();
+  if (computing_ == nullptr) return;
+  ++within;
+  computing_->come_back();
 }
 
 WithinPython::~WithinPython() {
   if (computing_ == nullptr) return;
   computing_->thread_ = PyEval_SaveThread();
   computing_here = computing_;
+  --within;
 }
 
 void Computing::come_back() {
   ++coming_back;
   if (python_ends && std::this_thread::get_id() != ending_thread) {
     --coming_back;
+    if (computing_here != this) --within;
     while (true) ::pause();
   }
   PyEval_RestoreThread(thread_);

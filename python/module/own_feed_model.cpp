@@ -1,5 +1,8 @@
 #include "module/own_feed_model.hpp"
 
+#include <cxxabi.h>
+#include <unistd.h>
+
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -52,6 +55,9 @@ force::CuttingLoad OwnFeedModel::load(const force::EngagedBone& bone, double thr
   const WithinPython python;
   try {
     return asked(bone, thrust_n);
+  } catch (const abi::__forced_unwind&) {
+    // Python ends, and with it this thread, which must not be unwound through what does not throw.
+    while (true) ::pause();
   } catch (...) {
     raised_ = std::current_exception();
     return {none, none};

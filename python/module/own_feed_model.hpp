@@ -20,6 +20,8 @@ class OwnFeedModel final : public force::FeedModel {
   /// Not a number where Python raised: then throw_raised() says what.
   force::CuttingLoad load(const force::EngagedBone& bone, double thrust_n) const noexcept override;
 
+  /// Whether load() failed. Its numbers may have been used all the same, or not.
+  bool has_raised() const noexcept { return raised_ != nullptr; }
   /// Throws once what load() could not; else nothing.
   void throw_raised();
 

@@ -93,9 +93,13 @@ void Reaming::reset() {
 record::ops::Tick Reaming::tick(device::DeviceInput input) {
   watchdog_->judge(state_->tick, input);
   record::TickReport report;
-  if (const auto status = sim::step(*model_, *state_, input, report); status != sim::StepStatus::ok) {
+  const sim::StepStatus status = sim::step(*model_, *state_, input, report);
+  if (own_feed_ != nullptr && own_feed_->has_raised()) {
     hand_ = Hand::let_go;
-    if (own_feed_ != nullptr) own_feed_->throw_raised();
+    own_feed_->throw_raised();
+  }
+  if (status != sim::StepStatus::ok) {
+    hand_ = Hand::let_go;
     throw Error(status == sim::StepStatus::not_finite ? ErrorKind::invalid_input : ErrorKind::unavailable,
                 sim::message_of(end_of(status)));
   }

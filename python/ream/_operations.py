@@ -12,7 +12,8 @@ class Operations:
     """What a server can be asked; ream.client.Client asks it.
 
     Bodies and answers are JSON as the contract describes them, at /api of any server. Answers that are no JSON are
-    bytes; with `to_file` they go into that file instead, and the file's path is returned.
+    bytes; with `to_file` they go into that file instead, and the file's path is returned. Where the server still
+    has to make the file, the answer is a job: see Client.wait().
     """
 
     def _ask(

@@ -12,30 +12,23 @@ What the server refuses is a ClientError, with its sentence about what to do.
 
 from __future__ import annotations
 
+import contextlib
 import http.client
 import json
 import os
 import pathlib
-import shutil
 import ssl
+import tempfile
 import time
 import urllib.parse
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Iterator
 from typing import Any
 
 from ream._operations import Operations, _Content
 from ream._ream import Error
 
 _PIECE_BYTES = 1 << 20
-_KINDS = {
-    400: "invalid_input",
-    404: "not_found",
-    409: "conflict",
-    413: "invalid_input",
-    422: "invalid_input",
-    429: "unavailable",
-    503: "unavailable",
-}
+_KINDS = {404: "not_found", 409: "conflict", 429: "unavailable"}
 
 
 class ClientError(Error):
@@ -62,17 +55,20 @@ class Client(Operations):
         token: of `ream user token` or add_token(); a server without users needs none.
         timeout_s: that the server may be silent. tls: for certificates of your own.
         """
-        parts = urllib.parse.urlsplit(url)
         try:
-            port = parts.port
-        except ValueError:
-            port = -1
-        if parts.scheme not in ("http", "https") or not parts.hostname or port == -1 or parts.query or parts.fragment:
-            raise ClientError(f"{url!r} is not the address of a server; it is like http://127.0.0.1:8080")
+            parts = urllib.parse.urlsplit(url)
+            port = parts.port or {"http": 80, "https": 443}[parts.scheme]
+            usable = bool(parts.hostname) and not parts.query and not parts.fragment
+        except (ValueError, KeyError):
+            usable = False
+        if not usable:
+            raise ClientError("that is not the address of a server; it is like http://127.0.0.1:8080")
+        if parts.username is not None or parts.password is not None:
+            raise ClientError("an address has no user and password here; give a token")
         if token is not None and not (token.isascii() and token.isprintable()):
             raise ClientError("a token has printable ASCII characters only")
         self.url = url.rstrip("/")
-        self._host, self._port = parts.hostname, port
+        self._host, self._port = parts.hostname or "", port
         self._prefix = parts.path.rstrip("/")
         self._token = token
         self._timeout_s = timeout_s
@@ -82,7 +78,7 @@ class Client(Operations):
         return f"<ream.client.Client of {self.url}>"
 
     def upload(self, path: str | os.PathLike[str]) -> str:
-        """Sends a file in pieces; the answer is what bodies call `upload_id`. A lost piece is sent again."""
+        """Sends a file in pieces; the answer is what bodies call `upload_id`."""
         file = pathlib.Path(path)
         with file.open("rb") as content:
             size = os.fstat(content.fileno()).st_size
@@ -90,8 +86,11 @@ class Client(Operations):
             sent = 0
             while sent < size:
                 content.seek(sent)
-                upload = self.append_to_upload(upload["id"], content.read(_PIECE_BYTES), offset=sent)
-                sent = upload["received"]
+                piece = content.read(_PIECE_BYTES)
+                upload = self.append_to_upload(upload["id"], piece, offset=sent)
+                if not piece or upload["received"] != sent + len(piece):
+                    raise ClientError(f"{file} changed while it was sent, or the server lost a piece of it")
+                sent += len(piece)
         identity: str = upload["id"]
         return identity
 
@@ -132,9 +131,12 @@ class Client(Operations):
             raise ImportError("Client.changes() needs websockets: apt install python3-websockets") from None
         headers = {"Authorization": f"Bearer {self._token}"} if self._token else {}
         address = self.listen_to_changes(since=since)
-        async with websockets.connect(address, extra_headers=headers, ssl=self._tls) as socket:
-            async for message in socket:
-                yield json.loads(message)
+        try:
+            async with websockets.connect(address, extra_headers=headers, ssl=self._tls) as socket:
+                async for message in socket:
+                    yield json.loads(message)
+        except (OSError, ValueError, websockets.WebSocketException) as failure:
+            raise ClientError(f"{self.url} cannot be listened to: {failure}") from None
 
     def _address(self, path: str, query: dict[str, Any] | None = None) -> str:
         return "ws" + self.url.removeprefix("http") + path + _encoded(query)
@@ -169,11 +171,13 @@ class Client(Operations):
             sent["Content-Type"] = "application/octet-stream"
         connection = self._connection()
         try:
-            connection.request(method, self._prefix + path + _encoded(query), bytes(content or b"") or None, sent)
-            reply = connection.getresponse()
-            return _answer(reply, to_file)
-        except (OSError, http.client.HTTPException) as failure:
-            raise ClientError(f"{self.url} cannot be asked: {failure or type(failure).__name__}") from None
+            with _failures(self.url):
+                connection.request(method, self._prefix + path + _encoded(query), bytes(content or b"") or None, sent)
+                reply = connection.getresponse()
+            if to_file is not None and reply.status in (200, 206):
+                return _saved(reply, pathlib.Path(to_file), self.url)
+            with _failures(self.url):
+                return _answer(reply)
         finally:
             connection.close()
 
@@ -193,12 +197,19 @@ def _encoded(query: dict[str, Any] | None) -> str:
     return "?" + urllib.parse.urlencode(there) if there else ""
 
 
-def _answer(reply: http.client.HTTPResponse, to: str | os.PathLike[str] | None) -> Any:
+@contextlib.contextmanager
+def _failures(url: str) -> Iterator[None]:
+    """What goes wrong with a connection, or an answer that is none, as a ClientError."""
+    try:
+        yield
+    except (OSError, http.client.HTTPException, ValueError, RecursionError) as failure:
+        raise ClientError(f"{url} cannot be asked: {failure or type(failure).__name__}") from None
+
+
+def _answer(reply: http.client.HTTPResponse) -> Any:
     kind = (reply.getheader("Content-Type") or "").split(";")[0].strip()
-    if reply.status >= 400:
+    if not 200 <= reply.status < 300:
         raise _refusal(reply, kind)
-    if to is not None:
-        return _saved(reply, pathlib.Path(to))
     content = reply.read()
     if kind == "application/json":
         return json.loads(content)
@@ -214,23 +225,38 @@ def _refusal(reply: http.client.HTTPResponse, kind: str) -> ClientError:
         except ValueError:
             problem = None
     if not isinstance(problem, dict):
-        return ClientError(f"the server answered {reply.status} {reply.reason}", reply.status)
+        elsewhere = reply.getheader("Location")
+        more = f"; it says to ask {elsewhere}" if elsewhere else ""
+        return ClientError(f"the server answered {reply.status} {reply.reason}{more}", reply.status)
     message = str(problem.get("detail") or problem.get("title") or reply.reason)
     return ClientError(message, reply.status, problem)
 
 
-def _saved(reply: http.client.HTTPResponse, path: pathlib.Path) -> pathlib.Path:
-    """Under a name of its own until all of it has come."""
-    unfinished = path.with_name(path.name + ".part")
-    try:
-        with unfinished.open("wb") as file:
-            shutil.copyfileobj(reply, file)
+def _saved(reply: http.client.HTTPResponse, path: pathlib.Path, url: str) -> pathlib.Path:
+    """Under a name of its own until all of it has come. Raises OSError where it cannot be written."""
+    with tempfile.NamedTemporaryFile(dir=path.parent, prefix=path.name, suffix=".part", delete=False) as file:
+        unfinished = pathlib.Path(file.name)
+        try:
+            while True:
+                with _failures(url):
+                    piece = reply.read(_PIECE_BYTES)
+                if not piece:
+                    break
+                file.write(piece)
             file.flush()
             os.fsync(file.fileno())
-        expected = reply.getheader("Content-Length")
-        if expected is not None and int(expected) != unfinished.stat().st_size:
-            raise ClientError("the server ended before the file was whole")
-        unfinished.rename(path)
-    finally:
-        unfinished.unlink(missing_ok=True)
+            if reply.length not in (None, 0) or (reply.length is None and reply.getheader("Content-Length")):
+                raise ClientError("the server ended before the file was whole")
+            unfinished.chmod(0o666 & ~_umask())
+            unfinished.rename(path)
+        except BaseException:
+            unfinished.unlink(missing_ok=True)
+            raise
     return path
+
+
+def _umask() -> int:
+    """New files are for whom they usually are."""
+    mask = os.umask(0o077)
+    os.umask(mask)
+    return mask

@@ -14,7 +14,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from ream._ream import Error
-from ream.environments import MAX_PUSH_N, OBSERVED, TASKS, Action, FreeHand, Observation, Reaming
+from ream.environments import MAX_PUSH_N, OBSERVED, STEP_S, TASKS, Action, FreeHand, Observation, Reaming
 
 
 class Controller(Protocol):
@@ -102,7 +102,7 @@ class Reference:
             self._aligned = True
         if self._done:
             return [0.0] * 4
-        each_step = 0.02 * np.array([FreeHand.max_speed_mm_s] * 2 + [FreeHand.max_turn_rad_s] * 2)
+        each_step = STEP_S * np.array([FreeHand.max_speed_mm_s] * 2 + [FreeHand.max_turn_rad_s] * 2)
         moves = -self.gain * np.concatenate([mm, rad]) / each_step
         return [float(move) for move in np.clip(moves, -1.0, 1.0)]
 
@@ -184,7 +184,7 @@ def main(words: list[str] | None = None) -> int:
             score, error = episode["score"], episode["metrics"]["depth_error_mm"]
             points.append(score["points"] or 0.0)
             print(
-                f"{seed:4}  {0.02 * episode['steps']:7.2f}  {'-' if error is None else format(error, '.2f'):>14}"
+                f"{seed:4}  {STEP_S * episode['steps']:7.2f}  {'-' if error is None else format(error, '.2f'):>14}"
                 f"  {points[-1]:6.1f}  {score.get('outcome') or '-':9}  {episode['return']:6.3f}"
             )
     except Error as error:

@@ -10,6 +10,9 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import ctypes
+import fcntl
+import hashlib
 import json
 import multiprocessing
 import os
@@ -27,7 +30,7 @@ from ream._ream import Error
 from ream._ream import version as _version
 from ream.controllers import CONTROLLERS, find_controller, run_episode
 from ream.datasheet import datasheet
-from ream.environments import OBSERVED, TASKS, Action, Observation, Reaming
+from ream.environments import OBSERVED, STEP_S, TASKS, Action, Observation, Reaming
 from ream.simulation import volume
 
 try:
@@ -35,7 +38,7 @@ try:
 except ImportError:
     raise ImportError("ream.dataset needs h5py: apt install python3-h5py") from None
 
-_STEPS_A_SECOND = 50
+_PR_SET_PDEATHSIG = 1
 #: Packed as the same bytes by every process.
 _PACKED = {"compression": "gzip", "compression_opts": 4, "shuffle": True}
 #: Leaves room between the seeds of two data sets.
@@ -61,11 +64,19 @@ def _name(index: int) -> str:
 
 @contextlib.contextmanager
 def _new_file(path: pathlib.Path) -> Iterator[h5py.File]:
-    """A file that has its name only once it is whole."""
+    """A file that has its name only once it is whole. It is made in memory: on a full disk HDF5 would crash."""
+    with h5py.File(path.name, "w", driver="core", backing_store=False, libver=("earliest", "v110")) as file:
+        yield file
+        file.flush()
+        content = file.id.get_file_image()
+    _write(path, content)
+
+
+def _write(path: pathlib.Path, content: bytes) -> None:
+    """Whole or not at all."""
     unfinished = path.with_name(f"{path.name}.{os.getpid()}.tmp")
     try:
-        with h5py.File(unfinished, "w", libver=("earliest", "v110")) as file:
-            yield file
+        unfinished.write_bytes(content)
         _sync(unfinished)
         unfinished.rename(path)
         _sync(path.parent)
@@ -81,11 +92,19 @@ def _sync(path: pathlib.Path) -> None:
         os.close(descriptor)
 
 
-def _write_text(path: pathlib.Path, text: str) -> None:
-    unfinished = path.with_name(path.name + ".tmp")
-    unfinished.write_text(text)
-    _sync(unfinished)
-    unfinished.rename(path)
+@contextlib.contextmanager
+def _only_one(folder: pathlib.Path) -> Iterator[None]:
+    """Nobody else makes a data set there meanwhile."""
+    folder.mkdir(parents=True, exist_ok=True)
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise Error(f"another process is making a data set in {folder}") from None
+        yield
+    finally:
+        os.close(descriptor)
 
 
 class _Episode:
@@ -94,7 +113,7 @@ class _Episode:
     def __init__(self, environment: Reaming, settings: Settings) -> None:
         self._environment = environment
         self._settings = settings
-        self._picture_steps = round(settings.picture_s * _STEPS_A_SECOND)
+        self._picture_steps = round(settings.picture_s / STEP_S)
         self.observations: list[Observation] = []
         self.actions: list[Action] = []
         self.rewards: list[float] = []
@@ -172,6 +191,14 @@ class _Maker:
             file.create_dataset("bone/removed", data=removed, chunks=True, **_PACKED)
         return index
 
+    def bone_hash(self) -> str:
+        """Of bone and plan before the first tick."""
+        simulation = self._environment.simulation
+        told = hashlib.sha256(self._whole.tobytes())
+        told.update(volume(simulation.density).tobytes())
+        told.update(json.dumps(simulation.plan, sort_keys=True).encode())
+        return told.hexdigest()
+
     def write_case(self) -> None:
         """case.h5: the bone before anything was removed."""
         simulation = self._environment.simulation
@@ -192,6 +219,9 @@ _maker: _Maker | None = None
 def _begin_worker(folder: pathlib.Path, settings: Settings) -> None:
     global _maker
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    # Ends with the process that began it, whatever ends that (prctl(2)).
+    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
     _maker = _Maker(folder, settings)
 
 
@@ -225,15 +255,17 @@ def _write_index(folder: pathlib.Path, count: int) -> dict[str, np.ndarray[Any, 
     return columns
 
 
-def _begin(folder: pathlib.Path, settings: Settings) -> None:
-    """Writes dataset.json, or refuses what is of other settings."""
-    folder.mkdir(parents=True, exist_ok=True)
-    about = {"ream": _version, **settings._asdict()}
+def _begin(folder: pathlib.Path, settings: Settings, maker: _Maker) -> None:
+    """Writes dataset.json and case.h5, or refuses what is of other settings or of another bone."""
+    about = {"ream": _version, **settings._asdict(), "bone": maker.bone_hash()}
     path = folder / "dataset.json"
+    for left in folder.glob("*.tmp"):
+        left.unlink()
     if not path.exists():
-        if any(folder.iterdir()):
+        if any(file.name != "case.h5" for file in folder.iterdir()):
             raise Error(f"{folder} has something else in it; choose a new or empty folder")
-        _write_text(path, json.dumps(about, indent=2) + "\n")
+        maker.write_case()
+        _write(path, (json.dumps(about, indent=2) + "\n").encode())
         return
     try:
         found = json.loads(path.read_text())
@@ -244,8 +276,6 @@ def _begin(folder: pathlib.Path, settings: Settings) -> None:
     for key, value in about.items():
         if found.get(key) != value:
             raise Error(f"{folder} was made with {key} {found.get(key)!r}, not {value!r}; choose another folder")
-    for left in folder.glob("*.tmp"):
-        left.unlink()
 
 
 def make_dataset(
@@ -260,17 +290,19 @@ def make_dataset(
         raise Error(f"there is no task {settings.task!r}; there are {', '.join(TASKS)}")
     if not 0 < count <= _MAX_COUNT or jobs < 1 or not 0 <= settings.seed < 2**32:
         raise Error(f"count must be 1 to {_MAX_COUNT}, jobs at least 1, seed 0 to 2**32 - 1")
-    if settings.picture_s < 0 or settings.picture_s != settings.picture_s:
-        raise Error("picture_s must not be negative")
+    picture_steps = settings.picture_s / STEP_S
+    if not (0 <= settings.picture_s < 1e6 and abs(picture_steps - round(picture_steps)) < 1e-6):
+        raise Error(f"picture_s must be 0 or a multiple of {STEP_S:g}")
     place = pathlib.Path(folder)
     maker = _Maker(place, settings)
-    _begin(place, settings)
-    if not (place / "case.h5").exists():
-        maker.write_case()
-    missing = [index for index in range(count) if not (place / _name(index)).exists()]
-    _make_all(place, settings, maker, missing, min(jobs, max(len(missing), 1)), count, quiet)
-    columns = _write_index(place, count)
-    _write_text(place / "DATASHEET.md", datasheet(settings._asdict(), columns, _version))
+    with _only_one(place):
+        _begin(place, settings, maker)
+        missing = [index for index in range(count) if not (place / _name(index)).exists()]
+        _make_all(place, settings, maker, missing, min(jobs, max(len(missing), 1)), count, quiet)
+        columns = _write_index(place, count)
+        # It may have been written to since, but for what is no longer so.
+        if missing or not (place / "DATASHEET.md").exists():
+            _write(place / "DATASHEET.md", datasheet(settings._asdict(), columns, _version).encode())
 
 
 def _make_all(
@@ -339,6 +371,7 @@ def main(words: list[str] | None = None) -> int:
     """The command."""
     parser = _parser()
     asked = parser.parse_args(words)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         make_dataset(asked.folder, asked.count, _settings_of(asked), jobs=asked.jobs, quiet=False)
     except KeyboardInterrupt:

@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ream.environments import OBSERVED
+
 _TEXT = """# Datasheet
 
 Written by `ream.dataset` of ream {version}. The questions are those of Gebru et al., *Datasheets for Datasets* (2018).
@@ -53,7 +55,8 @@ Of each reaming:
 
 By simulation alone: no person and no patient is in it, unless the case is a patient's. The hand is a program with
 chance in it, not a surgeon: how its errors are distributed is ours. Cutting forces, heat and vibration are those of
-ream's models, with the limits that its validity report names.
+ream's models, with the limits that its validity report names. The tracks of vibration are the same in every reaming: what differs is
+where the hand pushes.
 
 ## Was anything left out or changed?
 
@@ -81,8 +84,6 @@ def _row(name: str, column: npt.NDArray[np.float64]) -> str:
 
 def datasheet(settings: dict[str, Any], columns: dict[str, npt.NDArray[np.float64]], version: str) -> str:
     """The text of DATASHEET.md. `columns`: those of index.h5."""
-    from ream.environments import OBSERVED
-
     shown = ("points", "depth_error_mm", "axis_error_deg", "entry_error_mm", "removed_volume_mm3")
     shown += ("axial_thrust_mean_n", "axial_thrust_peak_n", "ticks")
     return _TEXT.format(

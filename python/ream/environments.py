@@ -13,8 +13,9 @@ A step is 20 ms: 50 actions a second. An episode ends when the hand has cut and 
 too deep, or when its time is up.
 
 The reward of a step is how much nearer to the plan it brought the reamer (`closeness()`, as far as the reamer has
-got), and at the end the rubric's points on top, a hundredth each. So an episode's rewards add up to its score, from
-0 to 1, and what was gained in closeness, which is at most what was missing at the start.
+got), and on top of it, when the hand has ended the episode, the rubric's points, a hundredth each. So the rewards of a
+finished reaming add up to its score, from 0 to 1, and what was gained in closeness. Where time is up (`truncated`) there
+are no points.
 """
 
 from __future__ import annotations
@@ -34,7 +35,8 @@ from ream.ticks import Flag
 Observation = npt.NDArray[np.float32]
 Action = npt.NDArray[np.float32]
 
-#: What an observation holds, in this order. Places and tilts are the reamer's in the plan frame.
+#: What an observation holds, in this order. Places and tilts are the reamer's in the plan frame; forces, feed, speed and
+#: temperature those of the step's last tick; vibration and what was removed those of the whole step.
 OBSERVED: Final = (
     "depth_mm",
     "depth_left_mm",
@@ -54,15 +56,18 @@ OBSERVED: Final = (
 )
 
 _TICKS_A_STEP: Final = 20
-_STEP_S: Final = 1e-3 * _TICKS_A_STEP
+#: Of simulated time.
+STEP_S: Final = 1e-3 * _TICKS_A_STEP
 #: Simulated newtons of the hand at full action.
 MAX_PUSH_N: Final = 100.0
 #: So far it must come up from the deepest place, free of bone, to have lifted off.
 _LIFTED_MM: Final = 2.0
 _TOO_DEEP_MM: Final = 3.0
-#: What takes closeness from whole to nothing: a millimetre of place costs a quarter, four degrees as much.
-_FAR_MM: Final = 4.0
-_FAR_RAD: Final = math.radians(16.0)
+#: In mm and radians: a start further off is a mistake.
+_MAX_START: Final = 100.0
+#: Of place and of tilt, what halves closeness.
+_HALF_MM: Final = 4.0
+_HALF_RAD: Final = math.radians(16.0)
 
 
 def _rotation(tilt_x_rad: float, tilt_y_rad: float) -> npt.NDArray[np.float64]:
@@ -107,7 +112,9 @@ class Reaming(Env[Observation, Action]):
         if not max_time_s > 0:
             raise Error("max_time_s must be above 0")
         self.simulation = Simulation(case, **simulation)
-        self.max_steps = math.ceil(max_time_s / _STEP_S)
+        if not callable(rubric):
+            self.simulation.score(rubric)  # refuses what is none
+        self.max_steps = math.ceil(max_time_s / STEP_S)
         self.rubric = rubric
         self.render_mode = render_mode
         self.planned_depth_mm = float(self.simulation.plan["depth_mm"])
@@ -127,6 +134,7 @@ class Reaming(Env[Observation, Action]):
         options: `x_mm`, `y_mm`, `tilt_x_rad`, `tilt_y_rad` and `height_mm` begin at a place of your own.
         """
         super().reset(seed=seed)
+        self._ended = True
         chance = self.np_random
         start = {
             "x_mm": chance.normal(0.0, self.start_offset_mm),
@@ -139,14 +147,16 @@ class Reaming(Env[Observation, Action]):
             if name not in start:
                 raise Error(f"there is no option {name!r}; there are " + ", ".join(start))
             start[name] = float(value)
+            if not abs(start[name]) <= _MAX_START:
+                raise Error(f"{name} must be a number from -{_MAX_START:g} to {_MAX_START:g}, not {value!r}")
         #: Where the hand holds the handle across the axis: x, y, and tilts about x and y.
         self._hand = np.array([start[name] for name in ("x_mm", "y_mm", "tilt_x_rad", "tilt_y_rad")])
         self._unsteady = np.zeros(5)
         self._steps = 0
-        self._ended = False
         self._has_cut = False
         self._begin(start["height_mm"])
         self._remember()
+        self._ended = False
         return self._observe(), {}
 
     def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
@@ -168,7 +178,8 @@ class Reaming(Env[Observation, Action]):
             self._ended = True
             info["metrics"] = self.simulation.metrics()
             info["score"] = self._score(info["metrics"])
-            reward += (info["score"]["points"] or 0.0) / 100.0
+            if terminated:
+                reward += (info["score"]["points"] or 0.0) / 100.0
         return self._observe(), float(reward), terminated, truncated, info
 
     def render(self) -> npt.NDArray[np.uint8] | None:
@@ -181,15 +192,15 @@ class Reaming(Env[Observation, Action]):
         return self._ticks
 
     def closeness(self) -> float:
-        """How near the plan is, from 1 (there) to 0 (far away).
+        """How near the plan is, from 1 (there) towards 0 (far away).
 
         Depth and place across count by the millimetre and tilt by the radian. What counts is the deepest place that
         was reached, as bone does not grow back.
         """
         depth, x_mm, y_mm, tilt_x, tilt_y = self._reached
         left = abs(self.planned_depth_mm - depth)
-        apart = (left + math.hypot(x_mm, y_mm)) / _FAR_MM + math.hypot(tilt_x, tilt_y) / _FAR_RAD
-        return max(0.0, 1.0 - apart / 3.0)
+        apart = (left + math.hypot(x_mm, y_mm)) / _HALF_MM + math.hypot(tilt_x, tilt_y) / _HALF_RAD
+        return 1.0 / (1.0 + apart)
 
     def _score(self, metrics: dict[str, Any]) -> dict[str, Any]:
         if callable(self.rubric):
@@ -219,7 +230,7 @@ class Reaming(Env[Observation, Action]):
         return np.array([[*handle[:3], *_rotation(handle[3], handle[4])] for handle in handles])
 
     def _move(self, push_n: float, across: npt.NDArray[np.float64], trigger: float) -> None:
-        kept = math.exp(-_STEP_S / self.unsteady_s)
+        kept = math.exp(-STEP_S / self.unsteady_s)
         self._unsteady = kept * self._unsteady + math.sqrt(1.0 - kept * kept) * self.np_random.normal(size=5)
         push_n += self.unsteady_n * self._unsteady[0]
         self._hand = self._hand + across
@@ -254,7 +265,7 @@ class Reaming(Env[Observation, Action]):
         return bool(int(self._ticks[-1]["flags"]) & Flag.ENGAGED)
 
     def _lifted(self) -> bool:
-        return self._has_cut and not self._engaged() and self._reached[0] - self._depth >= _LIFTED_MM
+        return self._has_cut and not self._engaged() and bool(self._reached[0] - self._depth >= _LIFTED_MM)
 
     def _observe(self) -> Observation:
         last = self._ticks[-1]
@@ -321,7 +332,7 @@ class FreeHand(Reaming):
 
     def _decided(self, action: npt.NDArray[np.float64]) -> tuple[float, npt.NDArray[np.float64], float]:
         most = np.array([self.max_speed_mm_s, self.max_speed_mm_s, self.max_turn_rad_s, self.max_turn_rad_s])
-        return MAX_PUSH_N * action[0], _STEP_S * most * action[1:5], float(action[5])
+        return MAX_PUSH_N * action[0], STEP_S * most * action[1:5], float(action[5])
 
 
 #: By the names that commands have for them.

@@ -15,6 +15,7 @@ numbers become one value: `axis=(0, 0, 0, 1, 0, 0)`. What the command prints wit
 from __future__ import annotations
 
 import json
+import numbers
 import os
 import pathlib
 import shutil
@@ -26,7 +27,7 @@ from ream._ream import Error
 
 Value = Union[str, float, bool, None, "os.PathLike[str]", Sequence[float]]
 
-#: Where the program is; None: REAM_BIN, beside the package, or in PATH.
+#: Where the program is; None: REAM_BIN, in PATH, or in the build that the package is of.
 program: str | os.PathLike[str] | None = None
 
 
@@ -53,8 +54,8 @@ def _words(options: dict[str, Value]) -> list[str]:
             words.append(option)
         elif isinstance(value, (str, os.PathLike)):
             words.append(f"{option}={os.fspath(value)}")
-        elif isinstance(value, (int, float)):
-            words.append(f"{option}={value!r}")
+        elif isinstance(value, numbers.Real):
+            words.append(f"{option}={int(value) if isinstance(value, numbers.Integral) else float(value)}")
         else:
             words.append(f"{option}=" + ",".join(repr(float(number)) for number in value))
     return words

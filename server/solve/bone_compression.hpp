@@ -20,14 +20,15 @@ struct CompressionRequest {
 };
 
 struct CompressionResult {
-  size_t elements = 0, corners = 0, levels = 0;
+  size_t elements = 0, corners = 0;  ///< of what is loaded
+  size_t unloaded_elements = 0;      ///< of parts that do not reach both platens
   fe::ComponentCount components;
   Vec3 box_mm = Vec3::Zero();  ///< around the elements
   double bone_share = 0.0;     ///< of the box
   double force_n = 0.0;        ///< on the platen that stands
-  double imbalance = 0.0;      ///< of both platens' forces, over one of them
+  double unbalanced = 0.0;     ///< length of the forces that nothing holds, over that of the platens' own
   double modulus_mpa = 0.0;    ///< of the box: force over its area over the strain
-  double voigt_mpa = 0.0;      ///< never exceeded
+  double voigt_mpa = 0.0;      ///< never exceeded; for fixed platens of a body that cannot expand sideways
   double reuss_mpa = 0.0;      ///< never undercut where every voxel of the box is bone; else 0
   /// Of the elements' effective strains, sqrt(2 energy / (volume modulus)) (Pistoia 2002): quantiles 0.5,
   /// 0.95, 0.99, and the greatest.
@@ -38,8 +39,10 @@ struct CompressionResult {
   double build_s = 0.0, solve_s = 0.0;
 };
 
-/// Errors: invalid_input for a model without elements and for more than 2^31 corners; those of
-/// make_materials; what `progress` throws. What does not converge is told, not thrown.
+/// Parts that do not reach both platens carry nothing and are left out. Errors: invalid_input where no part
+/// does, for more than 2^31 places in the box and for moduli beyond 1e-9 to 1e12 MPa; usage for a strain and
+/// a Poisson's ratio that cannot be (elements as these lock above 0.49); those of make_materials; what
+/// `progress` throws. What does not converge is told, not thrown.
 CompressionResult compress(fe::ElementModel model, const CompressionRequest& request, MemoryBudget& budget,
                            const Progress& progress = no_progress);
 

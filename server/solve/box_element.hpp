@@ -7,7 +7,7 @@
 namespace ream::solve {
 
 /// A linear elastic, isotropic element with the shape of a box and eight corners: trilinear displacements,
-/// two Gauss points along each axis (C3D8 of Abaqus and CalculiX). Corner c lies at the greater end of axis k
+/// two Gauss points along each axis (C3D8 of CalculiX). Corner c lies at the greater end of axis k
 /// where bit k of c is set.
 struct BoxElement {
   using Stiffness = Eigen::Matrix<double, 24, 24>;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "solve/elastic_operator.hpp"
 #include "solve/multigrid.hpp"
 #include "solve/parallel_vectors.hpp"
@@ -15,18 +16,23 @@ using Doubles = std::vector<double>;
 
 class ConjugateGradients {
  public:
-  ConjugateGradients(const ElasticGrid& grid, double poisson, Doubles guess, ThreadPool& pool)
-      : stiffness_(grid, poisson), multigrid_(grid, poisson, pool), aggregates_(grid, poisson), pool_(pool) {
+  ConjugateGradients(const ElasticGrid& grid, double poisson, Doubles guess, ThreadPool& pool,
+                     const Progress& progress)
+      : stiffness_(grid, poisson),
+        multigrid_(grid, poisson, pool),
+        aggregates_(grid, poisson, progress),
+        pool_(pool) {
     solution_.displacements_mm = std::move(guess);
     for (Doubles* vector : {&residual_, &corrected_, &direction_, &forces_})
       vector->resize(solution_.displacements_mm.size());
-    solution_.peak_bytes = 5 * 8 * residual_.size() + multigrid_.bytes() + aggregates_.bytes() + grid.bytes();
   }
 
   Solution run(const SolverLimits& limits, const Progress& progress) {
     stiffness_.apply(solution_.displacements_mm, residual_, pool_);
     each([&](size_t i) { residual_[i] = -residual_[i]; });
     const double first = length();
+    if (!std::isfinite(first))
+      throw Error(ErrorKind::invalid_input, "the bone's forces are not finite; its moduli are too large");
     if (first > 0.0) take_out_rigid_motions();
     solution_.relative_residual = first > 0.0 ? length() / first : 0.0;
     double last_product = 0.0;
@@ -106,7 +112,7 @@ class ConjugateGradients {
 
 Solution solve(const ElasticGrid& grid, double poisson, Doubles guess, const SolverLimits& limits,
                ThreadPool& pool, const Progress& progress) {
-  return ConjugateGradients(grid, poisson, std::move(guess), pool).run(limits, progress);
+  return ConjugateGradients(grid, poisson, std::move(guess), pool, progress).run(limits, progress);
 }
 
 }  // namespace ream::solve

@@ -17,11 +17,11 @@ struct Solution {
   int iterations = 0;
   double relative_residual = 1.0;
   bool converged = false;
-  size_t peak_bytes = 0;  ///< of vectors and grids, about
 };
 
 /// Displacements of a grid for which nothing pushes where nothing is held: conjugate gradients with a
-/// multigrid cycle. `guess`: 3 corners(); what is held stays as it is there. Errors: what `progress` throws.
+/// multigrid cycle. `guess`: 3 corners(); what is held stays as it is there. Errors: invalid_input
+/// for forces that are not finite; unavailable; what `progress` throws.
 Solution solve(const ElasticGrid& grid, double poisson, std::vector<double> guess, const SolverLimits& limits,
                ThreadPool& pool, const Progress& progress = no_progress);
 

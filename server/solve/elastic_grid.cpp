@@ -39,9 +39,10 @@ void ElasticGrid::number_corners() {
 }
 
 Vec3i ElasticGrid::place_of(size_t corner) const {
-  const size_t place = places_[corner];
-  return {static_cast<int>(place % row_), static_cast<int>(place % layer_ / row_),
-          static_cast<int>(place / layer_)};
+  const uint32_t place = places_[corner], row = static_cast<uint32_t>(row_),
+                 layer = static_cast<uint32_t>(layer_);
+  const uint32_t z = place / layer, in_layer = place - z * layer, y = in_layer / row;
+  return {static_cast<int>(in_layer - y * row), static_cast<int>(y), static_cast<int>(z)};
 }
 
 /// Where it coincides with a corner of this grid, as that one; else where all that it moves are held.
@@ -60,7 +61,7 @@ bool ElasticGrid::coarse_is_held(const Vec3i& coarse_place, int axis) const {
 }
 
 ElasticGrid ElasticGrid::coarser(const std::array<float, 256>& energy_shares) const {
-  // At most twice the energy is missing where a coarse correction is still one.
+  // A coarse step goes too far, and a cycle makes things worse, from twice the energy on.
   constexpr float allowed = 1.9f;
   const Vec3i dims = (dims_.array() + 1) / 2;
   const auto cells = static_cast<size_t>(dims.prod());
@@ -92,10 +93,6 @@ std::vector<float> ElasticGrid::modulus_sums() const {
     for (int c = 0; c < 8; ++c)
       sums[static_cast<size_t>(corner_of_[first_places_[e] + corner_offset(c)])] += moduli_mpa_[e];
   return sums;
-}
-
-size_t ElasticGrid::bytes() const {
-  return 4 * (corner_of_.size() + 2 * elements() + places_.size()) + held_.size();
 }
 
 }  // namespace ream::solve

@@ -13,11 +13,12 @@ namespace ream::solve {
 class ElasticGrid {
  public:
   /// `modulus_mpa`: of each cell, x fastest, 0 where there is none. Needs dims > 0 and fewer than 2^31
-  /// corners.
+  /// places.
   ElasticGrid(const Vec3i& dims, const Vec3& cell_mm, std::span<const float> modulus_mpa);
 
-  /// Cells twice as long along each axis, nearly of the mean modulus of the eight that lie in one: where some
-  /// are empty of more, so that no motion of the coarse corners has less than half of its energy here
+  /// Cells twice as long along each axis. Of the eight in one, the mean modulus; or more where some are empty
+  /// or much softer, so that no motion of the coarse corners has more than 1.9 times the energy here that it
+  /// has there
   /// (`energy_shares`: of a cell, see BoxElement). What is held here is held there. The last cells may reach
   /// beyond this grid.
   ElasticGrid coarser(const std::array<float, 256>& energy_shares) const;
@@ -58,7 +59,6 @@ class ElasticGrid {
 
   /// Sum of the moduli of a corner's elements, each.
   std::vector<float> modulus_sums() const;
-  size_t bytes() const;
 
  private:
   void number_corners();

@@ -11,9 +11,9 @@ namespace {
 
 /// So few corners are solved directly.
 constexpr size_t max_coarsest_corners = 500;
-constexpr int smoothing_steps = 2;
+constexpr int smoothing_steps = 3;
 /// Eigenvalues from the greatest down to this share of it are smoothed: what is below, the next grid sees.
-constexpr double smoothed_share = 0.1;
+constexpr double smoothed_share = 0.05;
 
 using Floats = std::vector<float>;
 
@@ -72,7 +72,8 @@ struct Multigrid::Level {
 };
 
 struct Multigrid::Coarsest {
-  explicit Coarsest(const Level& level) : grid(level.grid) {
+  explicit Coarsest(const Level& level) {
+    const ElasticGrid& grid = level.grid;
     const auto count = static_cast<Eigen::Index>(3 * grid.corners());
     Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(count, count);
     ThreadPool one(1);
@@ -104,7 +105,6 @@ struct Multigrid::Coarsest {
       solution[i] = static_cast<float>(found[static_cast<Eigen::Index>(i)]);
   }
 
-  const ElasticGrid& grid;
   Eigen::LDLT<Eigen::MatrixXd> factors;
 };
 
@@ -144,8 +144,7 @@ void interpolate(const ElasticGrid& coarse, const Floats& values, const ElasticG
       for (int c = 0; c < 8; ++c) {
         const Vec3i step(c & 1, c >> 1 & 1, c >> 2);
         if ((step.array() > odd.array()).any()) continue;
-        const int32_t near = coarse.corner_at(low + step);
-        if (near < 0) continue;
+        const int32_t near = coarse.corner_at(low + step);  // the cell that the fine corner lies in has it
         for (size_t k = 0; k < 3; ++k) sum[k] += weight * values[3 * static_cast<size_t>(near) + k];
       }
       for (size_t k = 0; k < 3; ++k)
@@ -169,14 +168,14 @@ Multigrid::~Multigrid() = default;
 
 void Multigrid::cycle(std::span<const double> residual, std::span<double> correction) {
   Level& finest = *levels_.front();
-  const double greatest =
+  const double length =
       std::sqrt(sum_of(pool_, residual.size(), [&](size_t i) { return residual[i] * residual[i]; }) + 1e-300);
   for_parts(pool_, residual.size(), [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) finest.residual[i] = static_cast<float>(residual[i] / greatest);
+    for (size_t i = begin; i < end; ++i) finest.residual[i] = static_cast<float>(residual[i] / length);
   });
   descend(0);
   for_parts(pool_, correction.size(), [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) correction[i] = greatest * double{finest.solution[i]};
+    for (size_t i = begin; i < end; ++i) correction[i] = length * double{finest.solution[i]};
   });
 }
 
@@ -195,13 +194,6 @@ void Multigrid::descend(size_t number) {
   });
   level.take_off();
   level.smooth(false);
-}
-
-size_t Multigrid::bytes() const {
-  size_t bytes = 0;
-  for (const auto& level : levels_)
-    bytes += 5 * 4 * level->solution.size() + (level->own ? level->grid.bytes() : 0);
-  return bytes;
 }
 
 }  // namespace ream::solve

@@ -24,7 +24,6 @@ class Multigrid {
   void cycle(std::span<const double> residual, std::span<double> correction);
 
   size_t levels() const { return levels_.size(); }
-  size_t bytes() const;
 
  private:
   struct Level;

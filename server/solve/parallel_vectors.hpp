@@ -10,8 +10,7 @@ namespace ream::solve {
 
 /// Calls work(begin, end) for parts of `count` numbers, which are the same on every number of threads.
 template <typename Work>
-void for_parts(ThreadPool& pool, size_t count, Work&& work) {
-  constexpr size_t part = 1 << 15;
+void for_parts(ThreadPool& pool, size_t count, Work&& work, size_t part = 1 << 15) {
   pool.run((count + part - 1) / part,
            [&](size_t piece, int) { work(piece * part, std::min(count, (piece + 1) * part)); });
 }

@@ -9,7 +9,10 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/error.hpp"
 #include "solve/box_element.hpp"
+#include "solve/parallel_vectors.hpp"
+#include "solve/sets.hpp"
 
 namespace ream::solve {
 namespace {
@@ -19,12 +22,14 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Motion = Eigen::Matrix<double, 3, 6>;  ///< of a point, by shift and turn
 
 /// Places along each edge of a block, at least.
-constexpr double min_block_edge = 4.0;
+constexpr int min_block_edge = 4;
 /// Of the direct solution, which takes some seconds then; see cost_of().
-constexpr double max_cost = 1.5e11;
+constexpr double max_cost = 3e10;
 constexpr double max_aggregates = 40000.0;
+constexpr size_t aggregates_in_part = 64;
 
-/// As the time for factors was measured to grow: `neighbours` are the blocks of a row.
+/// Grows as the time for factors does, which was measured for blocks and for networks of struts.
+/// `neighbours`: blocks of a row.
 double cost_of(double aggregates, double neighbours) {
   return aggregates * std::sqrt(aggregates) * std::pow(neighbours, 6);
 }
@@ -48,23 +53,6 @@ Mat6 moved(const Vec3& by) {
   m.topRightCorner<3, 3>() = -cross(by);
   return m;
 }
-
-class Sets {
- public:
-  explicit Sets(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  uint32_t find(uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  /// The smaller number stands for both.
-  void join(uint32_t a, uint32_t b) {
-    a = find(a), b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<uint32_t> parent_;
-};
 
 std::array<size_t, 8> corners_of(const ElasticGrid& grid, size_t element) {
   std::array<size_t, 8> corners;
@@ -216,7 +204,8 @@ Eigen::SparseMatrix<double> sparse(const Blocks& blocks, size_t aggregates) {
       for (int j = 0; j < 6; ++j) {
         if (row + i < column + j) continue;
         // What nobody holds may move as a whole, and a few corners in a row turn about themselves.
-        const double own = row + i == column + j ? 1e-9 * greatest : 0.0;
+        const bool none = block(i, j) < 1e-14 * greatest;
+        const double own = row + i != column + j ? 0.0 : none ? greatest : 1e-11 * block(i, j);
         entries.emplace_back(row + i, column + j, block(i, j) + own);
       }
   }
@@ -228,24 +217,33 @@ Eigen::SparseMatrix<double> sparse(const Blocks& blocks, size_t aggregates) {
 }  // namespace
 
 struct RigidAggregates::Parts {
-  Parts(const ElasticGrid& given, double poisson) : grid(given) {
-    for (double edge = min_block_edge;;) {
-      const int places = static_cast<int>(std::ceil(edge));
-      aggregates = aggregates_of(grid, places);
-      const auto count = static_cast<double>(aggregates.centres.size());
-      length_mm = places * grid.cell_mm().mean();
-      double cost = max_cost * std::pow(count / max_aggregates, 1.5);
-      if (count <= max_aggregates) {
-        const Blocks blocks = Assembly(grid, aggregates, poisson, length_mm).run();
-        cost = cost_of(count, static_cast<double>(blocks.size()) / count);
-        if (cost <= max_cost || count == 1.0) {
-          factors.compute(sparse(blocks, aggregates.centres.size()));
-          return;
-        }
+  Parts(const ElasticGrid& given, double poisson, const Progress& progress) : grid(given) {
+    int edge = min_block_edge;
+    while (const int next = next_edge(edge, poisson, progress)) edge = next;
+    list_members();
+  }
+
+  /// Takes blocks of so many places along each edge: 0 where that is done, else the edge to try next.
+  int next_edge(int edge, double poisson, const Progress& progress) {
+    progress(0.0, "preparing");
+    aggregates = aggregates_of(grid, edge);
+    length_mm = edge * grid.cell_mm().mean();
+    const auto count = static_cast<double>(aggregates.centres.size());
+    const bool last = edge > grid.dims().maxCoeff();
+    double cost = max_cost * std::pow(count / max_aggregates, 1.5);
+    if (count <= max_aggregates || last) {
+      const Blocks blocks = Assembly(grid, aggregates, poisson, length_mm).run();
+      progress(0.0, "preparing");
+      cost = cost_of(count, static_cast<double>(blocks.size()) / count);
+      if (cost <= max_cost || last) {
+        factors.compute(sparse(blocks, aggregates.centres.size()));
+        if (factors.info() != Eigen::Success)
+          throw Error(ErrorKind::unavailable, "the stiffness between pieces of bone cannot be factorised");
+        return 0;
       }
-      // There are fewer as the cube of the edge, and each has about as many neighbours.
-      edge = std::max(places + 1.0, places * std::pow(cost / max_cost, 1.0 / 4.5));
     }
+    // There are fewer as the cube of the edge, and each has about as many neighbours.
+    return std::max(edge + 1, static_cast<int>(std::ceil(edge * std::pow(cost / max_cost, 1.0 / 4.5))));
   }
 
   Motion motion(size_t corner) const {
@@ -257,26 +255,50 @@ struct RigidAggregates::Parts {
     return found;
   }
 
+  std::span<const uint32_t> corners_of(size_t aggregate) const {
+    return std::span(members).subspan(begins[aggregate], begins[aggregate + 1] - begins[aggregate]);
+  }
+
+  /// Corners by the aggregate that they belong to.
+  void list_members() {
+    begins.assign(aggregates.centres.size() + 1, 0);
+    for (const uint32_t aggregate : aggregates.of_corner) ++begins[aggregate + 1];
+    std::partial_sum(begins.begin(), begins.end(), begins.begin());
+    members.resize(aggregates.of_corner.size());
+    std::vector<size_t> next(begins.begin(), begins.end() - 1);
+    for (size_t corner = 0; corner < members.size(); ++corner)
+      members[next[aggregates.of_corner[corner]]++] = static_cast<uint32_t>(corner);
+  }
+
   const ElasticGrid& grid;
   Aggregates aggregates;
+  std::vector<uint32_t> members;
+  std::vector<size_t> begins;  ///< in members, of each aggregate, and the end
   double length_mm = 1.0;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors;
 };
 
-RigidAggregates::RigidAggregates(const ElasticGrid& grid, double poisson)
-    : parts_(std::make_unique<Parts>(grid, poisson)) {}
+RigidAggregates::RigidAggregates(const ElasticGrid& grid, double poisson, const Progress& progress)
+    : parts_(std::make_unique<Parts>(grid, poisson, progress)) {}
 
 RigidAggregates::~RigidAggregates() = default;
 
 void RigidAggregates::add_correction(std::span<const double> residual, std::span<double> correction,
                                      ThreadPool& pool) const {
   const Parts& parts = *parts_;
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(6 * count()));
-  for (size_t corner = 0; corner < parts.grid.corners(); ++corner) {
-    const Vec3 force(residual[3 * corner], residual[3 * corner + 1], residual[3 * corner + 2]);
-    forces.segment<6>(6 * static_cast<Eigen::Index>(parts.aggregates.of_corner[corner])) +=
-        parts.motion(corner).transpose() * force;
-  }
+  Eigen::VectorXd forces(static_cast<Eigen::Index>(6 * count()));
+  for_parts(
+      pool, count(),
+      [&](size_t begin, size_t end) {
+        for (size_t aggregate = begin; aggregate < end; ++aggregate) {
+          Vec6 sum = Vec6::Zero();
+          for (const uint32_t corner : parts.corners_of(aggregate))
+            sum += parts.motion(corner).transpose() *
+                   Vec3(residual[3 * corner], residual[3 * corner + 1], residual[3 * corner + 2]);
+          forces.segment<6>(6 * static_cast<Eigen::Index>(aggregate)) = sum;
+        }
+      },
+      aggregates_in_part);
   const Eigen::VectorXd motions = parts.factors.solve(forces);
   pool.run(static_cast<size_t>(parts.grid.dims().z()) + 1, [&](size_t layer, int) {
     const auto corners = parts.grid.layer_corners();
@@ -290,10 +312,5 @@ void RigidAggregates::add_correction(std::span<const double> residual, std::span
 }
 
 size_t RigidAggregates::count() const { return parts_->aggregates.centres.size(); }
-
-size_t RigidAggregates::bytes() const {
-  return 4 * parts_->aggregates.of_corner.size() + 24 * count() +
-         12 * static_cast<size_t>(parts_->factors.matrixL().nestedExpression().nonZeros());
-}
 
 }  // namespace ream::solve

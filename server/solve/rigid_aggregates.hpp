@@ -2,6 +2,7 @@
 #include <memory>
 #include <span>
 
+#include "core/progress.hpp"
 #include "core/thread_pool.hpp"
 #include "solve/elastic_grid.hpp"
 
@@ -9,11 +10,13 @@ namespace ream::solve {
 
 /// What coarse cells cannot tell of thin bone: struts side by side move apart, and bend. Corners in one block
 /// of the lattice that hang together there form an aggregate, which moves and turns as one; what such motions
-/// leave is solved directly. (As aggregation does it in Arbenz et al. 2008, for the bone of micro-CT.)
+/// leave is solved directly. (As aggregation does
+/// it: P. Arbenz et al., A scalable multi-level preconditioner for matrix-free micro-finite element analysis
+/// of human bone structures, Int. J. Numer. Meth. Engng 73, 2008.)
 class RigidAggregates {
  public:
-  /// `grid` must outlive this.
-  RigidAggregates(const ElasticGrid& grid, double poisson);
+  /// `grid` must outlive this. Errors: unavailable; what `progress` throws.
+  RigidAggregates(const ElasticGrid& grid, double poisson, const Progress& progress = no_progress);
   ~RigidAggregates();
   RigidAggregates(const RigidAggregates&) = delete;
   RigidAggregates& operator=(const RigidAggregates&) = delete;
@@ -22,7 +25,6 @@ class RigidAggregates {
   void add_correction(std::span<const double> residual, std::span<double> correction, ThreadPool& pool) const;
 
   size_t count() const;
-  size_t bytes() const;
 
  private:
   struct Parts;

@@ -86,6 +86,8 @@ class ClientTest(DataFolder):
         recording = self.client.get_recording(identity, to_file=self.folder / "from-server.ream")
         self.assertEqual(len(ream.open(recording)), self.client.get_session(identity)["tick"])
         self.assertTrue(ream.open(recording).verify()["same"])
+        snapshot = self.client.get_snapshot(identity, to_file=self.folder / "no-job.png")
+        self.assertEqual(isinstance(snapshot, dict), not (self.folder / "no-job.png").exists())
         snapshot = self.client.get_snapshot(identity)
         if isinstance(snapshot, dict):
             self.client.wait(snapshot["id"], timeout_s=60)
@@ -179,9 +181,12 @@ class ClientTest(DataFolder):
             self.assertEqual(raised.exception.status, 0)
 
     def test_wrong_addresses_and_tokens_are_said(self) -> None:
-        for wrong in ("127.0.0.1:8080", "ftp://127.0.0.1", "http://", "http://host:port", "http://h/?q=1"):
+        for wrong in ("127.0.0.1:8080", "ftp://127.0.0.1", "http://", "http://host:port", "http://h/?q=1", "http://[::1"):
             with self.assertRaisesRegex(ClientError, "http://127.0.0.1:8080"):
                 Client(wrong)
+        with self.assertRaises(ClientError) as raised:
+            Client("http://anna:secret@127.0.0.1")
+        self.assertNotIn("secret", str(raised.exception))
         with self.assertRaises(ClientError):
             Client(self.url, "two\r\nlines")
         with socket.socket() as taken:
@@ -190,7 +195,10 @@ class ClientTest(DataFolder):
                 Client(f"http://127.0.0.1:{taken.getsockname()[1]}").get_health()
 
     def test_answers_that_are_none_are_said(self) -> None:
-        for reply in (b"", b"HTTP/1.1 200 OK\r\nContent-Length: 9\r\n\r\nhalf", b"nonsense\r\n\r\n"):
+        moved = b"HTTP/1.1 301 Moved\r\nLocation: https://elsewhere/\r\nContent-Length: 2\r\n\r\nno"
+        deep = b"HTTP/1.1 400 No\r\nContent-Type: application/problem+json\r\nContent-Length: 6\r\n\r\n[[[[[["
+        wrong = b"HTTP/1.1 200 OK\r\nContent-Length: abc\r\n\r\nhalf"
+        for reply in (moved, deep, wrong, b"", b"HTTP/1.1 200 OK\r\nContent-Length: 9\r\n\r\nhalf", b"nonsense\r\n\r\n"):
             with self.subTest(reply=reply), socket.socket() as server:
                 server.bind(("127.0.0.1", 0))
                 server.listen()

@@ -58,6 +58,7 @@ class DatasetTest(DataFolder):
         said = process.communicate(timeout=60)[1]
         self.assertEqual(process.returncode, 130)
         self.assertIn("the same command goes on", said)
+        # As after the death of a process that nobody could warn.
         (folder / "reaming-000001.h5.123.tmp").write_text("left by a crash")
         there = {path.name: path.stat().st_mtime_ns for path in folder.glob("reaming-*.h5")}
         make_dataset(folder, COUNT, SMALL)
@@ -67,6 +68,43 @@ class DatasetTest(DataFolder):
             name = f"reaming-00000{index}.h5"
             self.assertEqual((folder / name).read_bytes(), (self.made / name).read_bytes())
         self.assertFalse(list(folder.glob("*.tmp")))
+
+    def test_two_do_not_share_a_folder_and_none_stays_behind(self) -> None:
+        folder = self.folder / "shared"
+        process = subprocess.Popen(self.command(folder, "--count", 40, "--jobs", 2), stderr=subprocess.PIPE, text=True)
+        while not (folder / "dataset.json").exists():
+            self.assertIsNone(process.poll())
+            time.sleep(0.02)
+        with self.assertRaisesRegex(ream.Error, "another process"):
+            make_dataset(folder, 1, SMALL)
+        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
+        while len(workers := children.read_text().split()) < 2:
+            time.sleep(0.02)
+        process.kill()
+        process.communicate(timeout=60)
+        until = time.monotonic() + 30
+        while any(pathlib.Path(f"/proc/{worker}/exe").exists() for worker in workers):
+            self.assertLess(time.monotonic(), until, "workers outlive their parent")
+            time.sleep(0.05)
+
+    def test_a_full_disk_is_said(self) -> None:
+        folder = self.folder / "full"
+        limited = ["bash", "-c", 'trap "" XFSZ; ulimit -f 40; exec "$@"', "bash"]
+        told = subprocess.run(limited + self.command(folder, "--count", 1), capture_output=True, text=True)
+        self.assertEqual(told.returncode, 1, told.stderr)
+        self.assertIn("ream.dataset: ", told.stderr)
+        self.assertNotIn("Traceback", told.stderr)
+        self.assertFalse([path for path in folder.iterdir() if path.suffix == ".tmp"])
+        make_dataset(folder, 1, SMALL)
+        self.assertEqual((folder / "case.h5").read_bytes(), (self.made / "case.h5").read_bytes())
+
+    def test_another_bone_is_another_data_set(self) -> None:
+        path = self.made / "dataset.json"
+        told = path.read_text()
+        self.addCleanup(path.write_text, told)
+        path.write_text(told.replace('"bone": "', '"bone": "0'))
+        with self.assertRaisesRegex(ream.Error, "made with bone"):
+            make_dataset(self.made, COUNT, SMALL)
 
     def test_holds_what_was_reamed(self) -> None:
         environment = PushToDepth("demo")
@@ -127,6 +165,8 @@ class DatasetTest(DataFolder):
             ["--picture-size", "big"],
             ["--picture-size", "0x10"],
             ["--picture-s", "-1"],
+            ["--picture-s", "inf"],
+            ["--picture-s", "0.005"],
             ["--case", "nowhere"],
         ]
         for words in wrong:

@@ -140,6 +140,7 @@ class EnvironmentsTest(DataFolder):
             points = episode["score"]["points"]
             with self.subTest(name):
                 self.assertEqual(episode["score"]["outcome"], "pass")
+                self.assertGreater(episode["return"], points / 100)
                 self.assertGreater(points, 80.0)
                 self.assertGreater(points, max(score["points"] or 0.0 for score in chance))
                 self.assertNotIn("pass", [score["outcome"] for score in chance])
@@ -149,9 +150,25 @@ class EnvironmentsTest(DataFolder):
         environment.reset(seed=11)
         at_first = environment.closeness()
         episode = run_episode(environment, Varied, 11)
-        points = episode["score"]["points"] or 0.0
-        self.assertAlmostEqual(episode["return"], points / 100 + environment.closeness() - at_first, places=9)
+        # Time was up: there are no points.
+        self.assertAlmostEqual(episode["return"], environment.closeness() - at_first, places=9)
         self.assertEqual(episode["metrics"], environment.simulation.metrics())
+
+    def test_coming_nearer_is_rewarded_from_everywhere(self) -> None:
+        for seed in range(8):
+            observation, _ = self.free.reset(seed=seed)
+            x_mm = self.seen(observation, "x_mm")
+            action = np.array([0, -np.sign(x_mm), 0, 0, 0, 0], np.float32)
+            gained = sum(self.free.step(action)[1] for _ in range(min(4, int(abs(x_mm) / 0.2))))
+            self.assertGreaterEqual(gained, 0.0)
+            self.assertTrue(abs(x_mm) < 0.5 or gained > 0.001, (seed, x_mm, gained))
+
+    def test_a_start_that_cannot_be_is_refused(self) -> None:
+        for options in ({"x_mm": math.nan}, {"height_mm": 5000}, {"tilt_x_rad": math.inf}):
+            with self.assertRaisesRegex(ream.Error, next(iter(options))):
+                self.push.reset(seed=1, options=options)
+            with self.assertRaisesRegex(ream.Error, "reset"):
+                self.push.step(np.zeros(2, np.float32))
 
     def test_ends_where_it_is_too_deep(self) -> None:
         observation, _ = self.push.reset(seed=1)
@@ -159,7 +176,7 @@ class EnvironmentsTest(DataFolder):
         while not ended:
             observation, _, terminated, truncated, info = self.push.step(np.array([1, 1], np.float32))
             ended = terminated or truncated
-        self.assertTrue(terminated)
+        self.assertIs(terminated, True)
         self.assertGreater(self.seen(observation, "depth_mm"), self.push.planned_depth_mm + 3.0)
         self.assertEqual(info["score"]["outcome"], "fail")
         with self.assertRaisesRegex(ream.Error, "reset"):

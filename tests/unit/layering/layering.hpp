@@ -68,8 +68,8 @@ inline constexpr Limits server_limits{.header_lines = 250,
                                       .folder_cycles = 0,
                                       .single_function_headers = 15,
                                       .private_headers = 22,
-                                      .files = 1028,
-                                      .lines = 95060,
+                                      .files = 1029,
+                                      .lines = 95180,
                                       .min_median_file_lines = 70,
                                       .max_median_file_lines = 110};
 

@@ -78,7 +78,7 @@ TEST_F(Preconditioner, AggregatesBalanceWhatTheyCan) {
   Doubles left(forces.size());
   for (size_t i = 0; i < left.size(); ++i) left[i] = forces[i] - balanced[i];
   aggregates.add_correction(left, more, pool_);
-  EXPECT_LT(dot(more, more), 1e-8 * dot(motion, motion));
+  EXPECT_LT(dot(more, more), 1e-12 * dot(motion, motion));
   for (size_t i = 0; i < motion.size(); ++i)
     if (grid_.is_held(i / 3, static_cast<int>(i % 3))) {
       EXPECT_EQ(motion[i], 0.0);
