@@ -56,6 +56,8 @@ class Settings(NamedTuple):
     picture_height: int = 120
     #: Between two pictures, simulated; 0: none.
     picture_s: float = 1.0
+    #: Of a reaming at most, simulated.
+    max_time_s: float = 40.0
 
 
 def _name(index: int) -> str:
@@ -163,7 +165,7 @@ class _Maker:
         self._folder = folder
         self._settings = settings
         self._factory = find_controller(settings.controller)
-        self._environment = TASKS[settings.task](settings.case)
+        self._environment = TASKS[settings.task](settings.case, max_time_s=settings.max_time_s)
         self._environment.simulation.reset()
         self._whole = volume(self._environment.simulation.coverage)
         # Refuses a size that cannot be.
@@ -354,6 +356,9 @@ def _parser() -> argparse.ArgumentParser:
     )
     size = f"{usual.picture_width}x{usual.picture_height}"
     parser.add_argument("--picture-size", default=size, help="WIDTHxHEIGHT; default: %(default)s")
+    parser.add_argument(
+        "--max-time-s", type=float, default=usual.max_time_s, help="of a reaming, simulated; default: %(default)s"
+    )
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="processes; default: %(default)s")
     return parser
 
@@ -362,9 +367,8 @@ def _settings_of(asked: argparse.Namespace) -> Settings:
     width, _, height = asked.picture_size.partition("x")
     if not (width.isdecimal() and height.isdecimal()):
         raise Error(f"--picture-size is WIDTHxHEIGHT, such as 160x120, not {asked.picture_size!r}")
-    return Settings(
-        asked.task, asked.controller, asked.case, asked.seed, int(width), int(height), asked.picture_s
-    )
+    pictures = (int(width), int(height), asked.picture_s)
+    return Settings(asked.task, asked.controller, asked.case, asked.seed, *pictures, asked.max_time_s)
 
 
 def main(words: list[str] | None = None) -> int:

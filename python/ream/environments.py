@@ -109,8 +109,8 @@ class Reaming(Env[Observation, Action]):
         """
         if render_mode not in (None, "rgb_array"):
             raise Error('render_mode must be "rgb_array" or None')
-        if not max_time_s > 0:
-            raise Error("max_time_s must be above 0")
+        if not 0 < max_time_s < 1e6:
+            raise Error("max_time_s must be above 0, and below a million")
         self.simulation = Simulation(case, **simulation)
         if not callable(rubric):
             self.simulation.score(rubric)  # refuses what is none

@@ -34,6 +34,7 @@ class FeedModel(Protocol):
 
     An object with such a `load` goes to Simulation as `feed_model`. It is called in each tick in which the reamer
     touches bone, and should depend on nothing but its arguments: then reset() and restore() give the same bits.
+    What it raises, a Ctrl-C among it, ends the simulation until reset() or restore().
     """
 
     def load(self, bone: EngagedBone, thrust_n: float) -> CuttingLoad:

@@ -15,7 +15,7 @@ from ream.controllers import Varied, run_episode
 from ream.dataset import Settings, make_dataset
 from ream.environments import OBSERVED, PushToDepth
 
-SMALL = Settings(picture_width=40, picture_height=30, picture_s=0.5, seed=3)
+SMALL = Settings(picture_width=40, picture_height=30, picture_s=0.5, seed=3, max_time_s=2.6)
 COUNT = 3
 
 
@@ -34,7 +34,7 @@ class DatasetTest(DataFolder):
 
     def command(self, *words: object) -> list[str]:
         size = f"{SMALL.picture_width}x{SMALL.picture_height}"
-        usual = ["--seed", SMALL.seed, "--picture-size", size, "--picture-s", SMALL.picture_s]
+        usual = ["--seed", SMALL.seed, "--picture-size", size, "--picture-s", SMALL.picture_s, "--max-time-s", SMALL.max_time_s]
         return [sys.executable, "-m", "ream.dataset", *map(str, [*words, *usual])]
 
     def test_has_a_file_for_each_reaming(self) -> None:
@@ -107,7 +107,7 @@ class DatasetTest(DataFolder):
             make_dataset(self.made, COUNT, SMALL)
 
     def test_holds_what_was_reamed(self) -> None:
-        environment = PushToDepth("demo")
+        environment = PushToDepth("demo", max_time_s=SMALL.max_time_s)
         whole = ream.volume(environment.simulation.coverage)
         episode = run_episode(environment, Varied, 3 * 1_000_000 + 1)
         simulation = environment.simulation
@@ -166,6 +166,8 @@ class DatasetTest(DataFolder):
             ["--picture-size", "0x10"],
             ["--picture-s", "-1"],
             ["--picture-s", "inf"],
+            ["--max-time-s", "0"],
+            ["--max-time-s", "nan"],
             ["--picture-s", "0.005"],
             ["--case", "nowhere"],
         ]

@@ -11,6 +11,7 @@ from places import PROGRAM, ROOT, DataFolder
 
 class GuideTest(DataFolder):
     def test_what_readers_copy_runs(self) -> None:
+        self.assertNotRegex((ROOT / "docs/python.md").read_text(), r"\b[A-Z]{4,}_[A-Z]{4,}\b", "a figure is still to come")
         blocks = re.findall(r"^```python\n(.*?)^```", (ROOT / "docs/python.md").read_text(), re.M | re.S)
         self.assertGreater(len(blocks), 8)
         os.environ["PATH"] = f"{PROGRAM.parent}:{os.environ['PATH']}"

@@ -62,8 +62,8 @@ class PicturesTest(DataFolder):
     def test_depth_is_that_of_the_surface(self) -> None:
         corners = self.corners()
         compared, missed = [], 0
-        for row in range(1, HEIGHT, 4):
-            for column in range(1, WIDTH, 4):
+        for row in range(1, HEIGHT, 6):
+            for column in range(1, WIDTH, 6):
                 ray, forward = ray_through(column, row)
                 expected = nearest_mm(EYE, ray, corners) * (ray @ forward)
                 found = float(self.bare.depth_mm[row, column])
@@ -71,7 +71,7 @@ class PicturesTest(DataFolder):
                     missed += math.isinf(expected) != math.isinf(found)
                 else:
                     compared.append(abs(found - expected))
-        self.assertGreater(len(compared), 30)
+        self.assertGreater(len(compared), 15)
         self.assertLessEqual(missed, 2)  # at an outline
         self.assertLess(np.median(compared), 0.02)
         self.assertLess(np.quantile(compared, 0.9), 0.1)

@@ -78,7 +78,7 @@ class SimulationTest(DataFolder):
         self.assertEqual(metrics, self.simulation.metrics())
         self.assertGreater(metrics["removed_volume_mm3"], 1.0)
         score = json.loads((out / "score.json").read_text())
-        self.assertEqual(score["points"], self.simulation.score()["points"])
+        self.assertEqual(score["score"]["points"], self.simulation.score()["points"])
         self.assertTrue((out / "trace.csv").exists())
         self.assertEqual(self.simulation.tick, 2600)
         with self.assertRaises(ream.Error):

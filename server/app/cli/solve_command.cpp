@@ -69,15 +69,14 @@ void solve_bone(const SolveOptions& options, const GlobalOptions& global) {
   const solve::CompressionResult result =
       solve::compress(fe::refined(std::move(model), options.upsample, budget), request, budget,
                       part_of(std::cref(progress), 0.2, 1.0));
+  if (!result.converged)
+    throw Error(ErrorKind::unavailable, "not converged after " + std::to_string(result.iterations) +
+                                            " iterations: the residual is " + text(result.relative_residual) +
+                                            " of the first; give a larger --max-iterations or --tolerance");
   if (global.json)
     std::cout << to_json(result).dump() << '\n';
   else
     print(result, options);
-  if (!result.converged)
-    throw Error(ErrorKind::unavailable, "not converged after " + std::to_string(result.iterations) +
-                                            " iterations: the residual is " +
-                                            std::to_string(result.relative_residual) +
-                                            " of the first; give a larger --max-iterations or --tolerance");
 }
 
 }  // namespace

@@ -48,10 +48,11 @@ TEST_F(Femesh, BoneIsCompressed) {
             solved["force_n"]);
   EXPECT_EQ(answer({"solve", "rows.txt", "--upsample", "2", "--modulus", "0,10"})["elements"], 4096);
   refuse(1, "not converged after 1 iterations",
-         {"solve", "rows.txt", "--max-iterations", "1", "--platens", "fixed", "--tolerance", "1e-8"});
+         {"solve", "rows.txt", "--modulus", "0,10", "--max-iterations", "1", "--platens", "fixed",
+          "--tolerance", "1e-8"});
   refuse(1, "nowhere", {"solve", "nowhere"});
   refuse(2, "--axis", {"solve", "rows.txt", "--axis", "w"});
-  refuse(1, "no voxel is bone", {"solve", "rows.txt", "--threshold", "5000"});
+  refuse(1, "no voxel is bone", {"solve", "rows.txt", "--modulus", "0,10", "--threshold", "5000"});
 }
 
 TEST_F(Femesh, TextRowsAsMimicsWritesThem) {

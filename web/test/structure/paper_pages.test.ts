@@ -51,6 +51,11 @@ describe('Pages of papers', () => {
   it('need no script, and no style of their own', () =>
     expect(pages().filter((name) => /<script|<style| style=| on[a-z]+="/.test(read(name)))).toEqual([]));
 
+  it('have an icon, so that no browser asks for one that is not there', () => {
+    const texts = [...pages().map(read), readFileSync(`${folder}.html`, 'utf8')];
+    expect(texts.filter((text) => !text.includes('<link rel="icon" href="data:,">'))).toEqual([]);
+  });
+
   it('have one heading of their own', () =>
     expect(pages().filter((name) => all(read(name), /<(h1) /g).length !== 1)).toEqual([]));
 
