@@ -48,7 +48,9 @@ struct Slab {
 struct Slabs {
   int rows_per_layer = 0, layers = 0, rows_per_slab = 1;
 
-  size_t per_layer() const { return static_cast<size_t>((rows_per_layer - 1) / rows_per_slab + 1); }
+  size_t per_layer() const {
+    return static_cast<size_t>(rows_per_layer - 1) / static_cast<size_t>(rows_per_slab) + 1;
+  }
   size_t count() const { return per_layer() * static_cast<size_t>(layers); }
   Slab at(size_t i) const {
     const int first = static_cast<int>(i % per_layer()) * rows_per_slab;

@@ -90,11 +90,11 @@ BoxElement::Stiffness within_octant(int octant) {
 
 BoxElement::BoxElement(const Vec3& edges, double poissons_ratio)
     : edges_mm(edges), poisson(poissons_ratio), stiffness(integrated(edges, poissons_ratio)) {
-  for (int parity = 0; parity < 8; ++parity)
-    for (int k = 0; k < 3; ++k)
-      for (int l = 0; l < 3; ++l)
-        blocks[static_cast<size_t>(parity)][static_cast<size_t>(3 * k + l)] =
-            in_modes(stiffness, parity ^ (1 << k), k, parity ^ (1 << l), l);
+  for (size_t parity = 0; parity < 8; ++parity)
+    for (size_t i = 0; i < 9; ++i) {
+      const int p = static_cast<int>(parity), k = static_cast<int>(i / 3), l = static_cast<int>(i % 3);
+      blocks[parity][i] = in_modes(stiffness, p ^ (1 << k), k, p ^ (1 << l), l);
+    }
   diagonal = stiffness.diagonal().head<3>();
 }
 

@@ -64,7 +64,7 @@ ElasticGrid ElasticGrid::coarser(const std::array<float, 256>& energy_shares) co
   // A coarse step goes too far, and a cycle makes things worse, from twice the energy on.
   constexpr float allowed = 1.9f;
   const Vec3i dims = (dims_.array() + 1) / 2;
-  const auto cells = static_cast<size_t>(dims.prod());
+  const auto cells = static_cast<size_t>(dims.cast<int64_t>().prod());
   std::vector<float> moduli(cells, 0.0f), greatest(cells, 0.0f);
   std::vector<uint8_t> octants(cells, 0);
   for (size_t e = 0; e < elements(); ++e) {
@@ -72,7 +72,9 @@ ElasticGrid ElasticGrid::coarser(const std::array<float, 256>& energy_shares) co
     const Vec3i at(static_cast<int>(place % row_), static_cast<int>(place % layer_ / row_),
                    static_cast<int>(place / layer_));
     const Vec3i coarse = at / 2, octant = at - 2 * coarse;
-    const auto cell = static_cast<size_t>(coarse.x() + dims.x() * (coarse.y() + dims.y() * coarse.z()));
+    const size_t coarse_row =
+        static_cast<size_t>(coarse.y()) + static_cast<size_t>(dims.y()) * static_cast<size_t>(coarse.z());
+    const size_t cell = static_cast<size_t>(coarse.x()) + static_cast<size_t>(dims.x()) * coarse_row;
     moduli[cell] += 0.125f * moduli_mpa_[e];
     greatest[cell] = std::max(greatest[cell], moduli_mpa_[e]);
     octants[cell] =

@@ -31,7 +31,7 @@ inline __attribute__((always_inline)) void sums_and_differences(Lane<Real>* valu
 template <typename Real>
 inline __attribute__((always_inline)) void multiply_blocks(const std::array<Real, 9>* blocks,
                                                            Lane<Real>* modes) {
-  for (int parity = 0; parity < 8; ++parity) {
+  for (size_t parity = 0; parity < 8; ++parity) {
     const Real* b = blocks[parity].data();
     Real* x = modes[3 * (parity ^ 1)];
     Real* y = modes[3 * (parity ^ 2) + 1];

@@ -169,11 +169,14 @@ class Assembly {
   Mat6 summed(uint8_t rows, uint8_t columns, const std::array<uint8_t, 8>& held) const {
     const auto motions = [&](uint8_t set) {
       Eigen::Matrix<double, 24, 6> all = Eigen::Matrix<double, 24, 6>::Zero();
-      for (int c = 0; c < 8; ++c) {
+      for (Eigen::Index c = 0; c < 8; ++c) {
         if ((set >> c & 1) == 0) continue;
-        const Vec3 at = Vec3(c & 1, c >> 1 & 1, c >> 2 & 1).cwiseProduct(grid_.cell_mm()) / length_;
+        const Vec3 at =
+            Vec3(static_cast<double>(c & 1), static_cast<double>(c >> 1 & 1), static_cast<double>(c >> 2 & 1))
+                .cwiseProduct(grid_.cell_mm()) /
+            length_;
         all.middleRows<3>(3 * c) = motion_at(at);
-        for (int k = 0; k < 3; ++k)
+        for (Eigen::Index k = 0; k < 3; ++k)
           if ((held[static_cast<size_t>(c)] >> k & 1) != 0) all.row(3 * c + k).setZero();
       }
       return all;
@@ -292,7 +295,7 @@ void RigidAggregates::add_correction(std::span<const double> residual, std::span
       [&](size_t begin, size_t end) {
         for (size_t aggregate = begin; aggregate < end; ++aggregate) {
           Vec6 sum = Vec6::Zero();
-          for (const uint32_t corner : parts.corners_of(aggregate))
+          for (const size_t corner : parts.corners_of(aggregate))
             sum += parts.motion(corner).transpose() *
                    Vec3(residual[3 * corner], residual[3 * corner + 1], residual[3 * corner + 2]);
           forces.segment<6>(6 * static_cast<Eigen::Index>(aggregate)) = sum;

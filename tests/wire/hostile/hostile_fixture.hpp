@@ -38,7 +38,9 @@ class HostileTest : public testing::Test {
     if (!server_) return;
     const HttpReply reply = http_request(port(), "GET", "/api/v1/sessions/" + session_);
     ASSERT_EQ(reply.status, 200) << "the server answers no more";
-    EXPECT_EQ(nlohmann::json::parse(reply.body).at("state"), "running");
+    // A loop that the machine has held up lets the session rest for a moment.
+    EXPECT_NO_THROW(LiveServer::until("the session to run",
+                                      [&] { return server_->get(session_).at("state") == "running"; }));
     const uint64_t now = ticks();
     EXPECT_NO_THROW(LiveServer::until("the session to tick on", [&] { return ticks() > now; }));
     EXPECT_TRUE(!memory_is_measurable() || most_memory_kib_ - memory_before_kib_ < memory_allowed_kib)
