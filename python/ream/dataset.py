@@ -218,12 +218,14 @@ class _Maker:
 _maker: _Maker | None = None
 
 
-def _begin_worker(folder: pathlib.Path, settings: Settings) -> None:
+def _begin_worker(folder: pathlib.Path, settings: Settings, parent: int) -> None:
     global _maker
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     # Ends with the process that began it, whatever ends that (prctl(2)).
     ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+    if os.getppid() != parent:
+        os._exit(1)
     _maker = _Maker(folder, settings)
 
 
@@ -326,7 +328,7 @@ def _make_all(
             tell(done + 1)
     else:
         spawn = multiprocessing.get_context("spawn")
-        with ProcessPoolExecutor(jobs, spawn, _begin_worker, (place, settings)) as pool:
+        with ProcessPoolExecutor(jobs, spawn, _begin_worker, (place, settings, os.getpid())) as pool:
             try:
                 for done, future in enumerate(as_completed([pool.submit(_work, index) for index in missing])):
                     future.result()
