@@ -166,7 +166,6 @@ class _Maker:
         self._settings = settings
         self._factory = find_controller(settings.controller)
         self._environment = TASKS[settings.task](settings.case, max_time_s=settings.max_time_s)
-        self._environment.simulation.reset()
         self._whole = volume(self._environment.simulation.coverage)
         # Refuses a size that cannot be.
         if settings.picture_s:

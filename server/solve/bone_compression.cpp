@@ -23,31 +23,10 @@ struct Cells {
   std::vector<float> moduli_mpa;  ///< x fastest; 0 without bone
 };
 
-struct Bounds {
-  Vec3i low = Vec3i::Constant(1 << 30), high = Vec3i::Constant(-1);  ///< `high` is the last
-};
-
-template <typename Use>
-void for_each_row_run(const fe::VoxelMask& mask, Use&& use) {
-  for (int w = 0; w < mask.dims().z(); ++w)
-    for (int v = 0; v < mask.dims().y(); ++v)
-      fe::for_each_run(mask.row(v, w), mask.words_per_row(),
-                       [&](int begin, int end) { use(begin, end, v, w); });
-}
-
-Bounds bounds_of_elements(const fe::VoxelMask& mask) {
-  Bounds bounds;
-  for_each_row_run(mask, [&](int begin, int end, int v, int w) {
-    bounds.low = bounds.low.cwiseMin(Vec3i(begin, v, w));
-    bounds.high = bounds.high.cwiseMax(Vec3i(end - 1, v, w));
-  });
-  return bounds;
-}
-
 Cells cells_of(const fe::ElementModel& model, const fe::Materials& materials) {
-  const Bounds bounds = bounds_of_elements(model.mask);
+  const fe::MeshBounds bounds = fe::bounds_of(model.mask);
   Cells cells;
-  cells.dims = bounds.high - bounds.low + Vec3i::Ones();
+  cells.dims = bounds.greatest - bounds.least;
   const double corners = (cells.dims.cast<double>().array() + 1.0).prod();
   if (corners >= 2147483648.0)
     throw Error(ErrorKind::invalid_input,
@@ -60,9 +39,9 @@ Cells cells_of(const fe::ElementModel& model, const fe::Materials& materials) {
   cells.moduli_mpa.assign(static_cast<size_t>(cells.dims.cast<int64_t>().prod()), 0.0f);
   uint64_t element = 0;
   std::vector<uint16_t> scratch;
-  for_each_row_run(model.mask, [&](int begin, int end, int v, int w) {
+  const auto add_run = [&](int begin, int end, int v, int w) {
     const auto count = static_cast<size_t>(end - begin);
-    const Vec3i at = Vec3i(begin, v, w) - bounds.low;
+    const Vec3i at = Vec3i(begin, v, w) - bounds.least;
     float* to =
         cells.moduli_mpa.data() + static_cast<size_t>(at.x()) +
         static_cast<size_t>(cells.dims.x()) *
@@ -70,7 +49,12 @@ Cells cells_of(const fe::ElementModel& model, const fe::Materials& materials) {
     for (const uint16_t code : model.codes.read(element, count, scratch))
       *to++ = static_cast<float>(materials.list[materials.of_code[code]].modulus_mpa);
     element += count;
-  });
+  };
+  const fe::VoxelMask& mask = model.mask;
+  for (int w = 0; w < mask.dims().z(); ++w)
+    for (int v = 0; v < mask.dims().y(); ++v)
+      fe::for_each_run(mask.row(v, w), mask.words_per_row(),
+                       [&](int begin, int end) { add_run(begin, end, v, w); });
   return cells;
 }
 
@@ -80,9 +64,7 @@ size_t take_out_unloaded(Cells& cells, const ElasticGrid& grid, int axis) {
   Sets sets(grid.corners());
   std::vector<uint32_t> corner_of_element(grid.elements());
   for (size_t e = 0; e < grid.elements(); ++e) {
-    const auto corner = [&](int c) {
-      return static_cast<uint32_t>(grid.corner_of()[grid.first_places()[e] + grid.corner_offset(c)]);
-    };
+    const auto corner = [&](int c) { return static_cast<uint32_t>(grid.corner_of_element(e, c)); };
     corner_of_element[e] = corner(0);
     for (int c = 1; c < 8; ++c) sets.join(corner(0), corner(c));
   }
@@ -148,8 +130,7 @@ std::vector<float> effective_strains(const ElasticGrid& grid, double poisson,
     Eigen::Matrix<double, 24, 1> u;
     for (size_t e = begin; e < end; ++e) {
       for (int c = 0; c < 8; ++c) {
-        const auto corner =
-            static_cast<size_t>(grid.corner_of()[grid.first_places()[e] + grid.corner_offset(c)]);
+        const size_t corner = grid.corner_of_element(e, c);
         for (int k = 0; k < 3; ++k) u[3 * c + k] = displacements[3 * corner + static_cast<size_t>(k)];
       }
       strains[e] = static_cast<float>(std::sqrt(std::max(0.0, u.dot(box.stiffness * u) / volume_mm3)));

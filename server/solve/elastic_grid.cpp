@@ -92,8 +92,7 @@ ElasticGrid ElasticGrid::coarser(const std::array<float, 256>& energy_shares) co
 std::vector<float> ElasticGrid::modulus_sums() const {
   std::vector<float> sums(corners_, 0.0f);
   for (size_t e = 0; e < elements(); ++e)
-    for (int c = 0; c < 8; ++c)
-      sums[static_cast<size_t>(corner_of_[first_places_[e] + corner_offset(c)])] += moduli_mpa_[e];
+    for (int c = 0; c < 8; ++c) sums[corner_of_element(e, c)] += moduli_mpa_[e];
   return sums;
 }
 

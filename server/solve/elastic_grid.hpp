@@ -51,6 +51,11 @@ class ElasticGrid {
            layer_ * static_cast<size_t>(c >> 2 & 1);
   }
 
+  /// Number of corner c of an element.
+  size_t corner_of_element(size_t element, int c) const {
+    return static_cast<size_t>(corner_of_[first_places_[element] + corner_offset(c)]);
+  }
+
   /// Holds a degree of freedom where it is.
   void hold(size_t corner, int axis) { held_[corner] |= static_cast<uint8_t>(1u << axis); }
   bool is_held(size_t corner, int axis) const { return (held_[corner] >> axis & 1u) != 0; }

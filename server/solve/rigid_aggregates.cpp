@@ -56,9 +56,7 @@ Mat6 moved(const Vec3& by) {
 
 std::array<size_t, 8> corners_of(const ElasticGrid& grid, size_t element) {
   std::array<size_t, 8> corners;
-  for (int c = 0; c < 8; ++c)
-    corners[static_cast<size_t>(c)] =
-        static_cast<size_t>(grid.corner_of()[grid.first_places()[element] + grid.corner_offset(c)]);
+  for (int c = 0; c < 8; ++c) corners[static_cast<size_t>(c)] = grid.corner_of_element(element, c);
   return corners;
 }
 

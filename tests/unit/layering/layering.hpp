@@ -69,7 +69,7 @@ inline constexpr Limits server_limits{.header_lines = 250,
                                       .single_function_headers = 15,
                                       .private_headers = 22,
                                       .files = 1029,
-                                      .lines = 95180,
+                                      .lines = 95160,
                                       .min_median_file_lines = 70,
                                       .max_median_file_lines = 110};
 
