@@ -3,7 +3,9 @@
 set(REAM_PACKAGE_CONTACT "the authors of ream <ream@example.org>" CACHE STRING "Who keeps the packages, as Debian wants it")
 set(made ${CMAKE_BINARY_DIR}/package)
 install(TARGETS ream RUNTIME DESTINATION bin COMPONENT ream)
-install(TARGETS ream-reader ream-renderer RUNTIME DESTINATION lib/ream COMPONENT ream)
+install(TARGETS ream-reader ream-renderer ream-plugin-trial RUNTIME DESTINATION lib/ream COMPONENT ream)
+install(FILES ${CMAKE_SOURCE_DIR}/server/plugin/ream_plugin.h DESTINATION include/ream COMPONENT ream)
+install(TARGETS ream-hdf5 LIBRARY DESTINATION lib/ream COMPONENT ream)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/web/dist/ DESTINATION share/ream/web COMPONENT ream)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/examples DESTINATION share/doc/ream COMPONENT ream)
 install(DIRECTORY ${made}/man/ DESTINATION share/man/man1 COMPONENT ream OPTIONAL)
@@ -25,11 +27,19 @@ if(TARGET ream_python)
   install(TARGETS ream_python LIBRARY DESTINATION ${python_folder} COMPONENT python)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/python/ream/ DESTINATION ${python_folder} COMPONENT python
           FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
+  install(DIRECTORY ${CMAKE_BINARY_DIR}/python/generated/ream/wire DESTINATION ${python_folder} COMPONENT python
+          FILES_MATCHING PATTERN "*.py" PATTERN "__pycache__" EXCLUDE)
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/python/slicer/Ream DESTINATION share/ream/slicer COMPONENT python
+          FILES_MATCHING PATTERN "*.py" PATTERN "*.ui" PATTERN "__pycache__" EXCLUDE)
+  install(FILES ${CMAKE_SOURCE_DIR}/python/ream/client.py ${CMAKE_SOURCE_DIR}/python/ream/_operations.py
+          DESTINATION share/ream/slicer/Ream/ReamLib COMPONENT python)
   file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/python/installed)
   foreach(program ream-reader ream-renderer)
     file(CREATE_LINK ../../../ream/${program} ${CMAKE_BINARY_DIR}/python/installed/${program} SYMBOLIC)
     install(FILES ${CMAKE_BINARY_DIR}/python/installed/${program} DESTINATION ${python_folder} COMPONENT python)
   endforeach()
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/python/notebooks DESTINATION share/doc/python3-ream COMPONENT python
+          FILES_MATCHING PATTERN "*.ipynb" PATTERN ".ipynb_checkpoints" EXCLUDE)
   install(FILES ${CMAKE_SOURCE_DIR}/packaging/copyright ${made}/changelog.gz DESTINATION share/doc/python3-ream
           COMPONENT python OPTIONAL)
 endif()
@@ -75,7 +85,7 @@ if(TARGET ream_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
       "ream (= ${PROJECT_VERSION}), python3-numpy (<< 1:2), python3 (>= 3.${REAM_PYTHON_MINOR}), python3 (<< 3.${next_minor})")
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-h5py, python3-websockets")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-flatbuffers, python3-h5py, python3-matplotlib, python3-websockets, jupyter-notebook")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
       "${CMAKE_SOURCE_DIR}/packaging/python/postinst;${CMAKE_SOURCE_DIR}/packaging/python/prerm")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION ON)

@@ -32,6 +32,16 @@ if(REAM_SANITIZER)
   target_link_options(ream_flags INTERFACE -fsanitize=${REAM_SANITIZER})
 endif()
 
+# Headers of ITK for a target, and for those that link it where `visibility` is PUBLIC. ITK brings an older Eigen of its own,
+# which must not meet ours in one source.
+function(ream_use_itk target visibility)
+  target_include_directories(${target} SYSTEM ${visibility} ${ITK_INCLUDE_DIRS})
+  target_compile_definitions(${target} ${visibility} ITK_USE_SYSTEM_EIGEN)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    target_compile_options(${target} ${visibility} "SHELL:-include ${CMAKE_SOURCE_DIR}/cmake/itk_for_clang.hpp")
+  endif()
+endfunction()
+
 # Headers that most sources read, compiled once: ream_precompiled(<name> <headers...>) makes a set of them,
 # ream_use_precompiled(<target> <name>) gives it to a target that is compiled with the same options.
 function(ream_precompiled name)

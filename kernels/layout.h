@@ -126,6 +126,16 @@ struct DecayArguments {
   ream_uint32 listed;  // runs
 };
 
+// Solver (server/solve): a lattice of dims + 1 places, its rows and layers, and how many of them are corners.
+struct ElasticGridLayout {
+  ream_uint32 corners, row, layer;
+  ream_int32 dims_x, dims_y, dims_z;
+};
+
+// Sums: numbers of a part, and how many of them are summed side by side (server/solve/parallel_vectors.hpp).
+#define REAM_SOLVE_PART 32768
+#define REAM_SOLVE_LANES 128
+
 #ifndef __OPENCL_VERSION__
 }  // namespace ream::layout
 #endif

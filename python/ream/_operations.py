@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Literal
+from typing import Any, Literal, Union
 
-_Content = bytes | bytearray | memoryview
+# Not written with |: 3D Slicer's Python is 3.9.
+_Content = Union[bytes, bytearray, memoryview]
 
 
 class Operations:

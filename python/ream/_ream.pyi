@@ -119,3 +119,6 @@ def voxelize(
     surface: bool,
     thin: bool,
 ) -> tuple[npt.NDArray[np.bool_], tuple[float, float, float]]: ...
+def block_surface(
+    vertices: bytes, vertex_count: int, indices: bytes, index_count: int
+) -> tuple[npt.NDArray[np.uint16], npt.NDArray[np.float32], npt.NDArray[np.uint32]]: ...

@@ -12,6 +12,7 @@ What the server refuses is a ClientError, with its sentence about what to do.
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import http.client
 import json
@@ -22,12 +23,31 @@ import tempfile
 import time
 import urllib.parse
 from collections.abc import AsyncIterator, Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal
 
-from ream._operations import Operations, _Content
-from ream._ream import Error
+from ._operations import Operations, _Content
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    from ._ream import Error
+    from .device import Device
+    from .stream import Message
+else:
+    try:
+        from ._ream import Error
+    except ImportError:  # a copy of this file without the module, as 3D Slicer has it
+
+        class Error(Exception):
+            """What is refused; `kind` as ream.Error has it."""
+
+            kind = "unavailable"
+
 
 _PIECE_BYTES = 1 << 20
+#: Of one message of a WebSocket: more than any that a server sends.
+_MAX_MESSAGE_BYTES = 64 << 20
 _KINDS = {404: "not_found", 409: "conflict", 429: "unavailable"}
 
 
@@ -120,23 +140,117 @@ class Client(Operations):
                     raise
             time.sleep(0.2)
 
+    def deviation_mm(self, session: str, to: Literal["plan", "implant", "wall"]) -> npt.NDArray[np.float32]:
+        """How far each vertex of get_session_mesh() lies from the plan or the implant, or the wall behind it, in mm.
+
+        Positive: too deep, or a gap. NaN: there is nothing to compare with. The mesh must have been asked for without
+        a stride, after the session has ended. It waits where the server has to compute it.
+        """
+        import numpy as np
+
+        path = self._filled("/api/v1/sessions/{id}/deviation", id=session)
+        heads: dict[str, str] = {}
+        answer = self._ask("GET", path, query={"to": to}, heads=heads)
+        if isinstance(answer, dict):
+            self.wait(answer["id"])
+            answer = self._ask("GET", path, query={"to": to}, heads=heads)
+        steps = np.frombuffer(answer, np.int8)
+        found: npt.NDArray[np.float32] = (steps * float(heads["deviation-step-mm"])).astype(np.float32)
+        found[steps == int(heads["deviation-unknown"])] = np.nan
+        return found
+
     async def changes(self, since: int | None = None) -> AsyncIterator[dict[str, Any]]:
         """What changes on the server, as it happens, from after message `since`. Needs python3-websockets.
 
         The first is `hello`; the contract's ChangeMessage describes the others. Ends when the server closes.
         """
+        async with self._socket(self.listen_to_changes(since=since)) as socket:
+            async for message in socket:
+                yield json.loads(message)
+
+    async def stream(
+        self, session: str, *, surface: bool = True, stride: Literal[1, 2, 4] = 1
+    ) -> AsyncIterator[Message]:
+        """What a viewer of a session sees, as it happens: messages of ream.stream, the first of them Hello.
+
+        Then come MeshDelta (the bone's surface, block by block), Telemetry (about 60 a second), and in replays
+        ToolChange. Ends when the session has ended and its surface is whole; of a session that has ended already that
+        is at once. A replay does not end: leave it when you have seen enough.
+
+        surface: False leaves MeshDelta out. The server sends it all the same, at a stride of 4, for the protocol has
+            no way to ask for none: about a sixteenth of the bytes. Blocks that nobody decodes cost little.
+        stride: 2 and 4 ask for a coarser surface, one sample every so many voxels.
+
+        Who reads too slowly loses telemetry, not the connection: Telemetry.dropped counts the ticks. Raises ClientError where
+        the server refuses, speaks another revision of the protocol, or closes before the session has ended. Needs
+        python3-websockets and python3-flatbuffers.
+        """
+        from .stream import Reader
+
+        reader = Reader(surface)
+        address = self.stream_session(session, stride=stride if surface else 4)
+        refusals = {409: f"session {session} is not open here, so that there is only its recording: replay_session() shows it"}
+        async with self._socket(address, refusals) as socket:
+            async for data in socket:
+                message = reader.read(data)
+                if message is not None:
+                    yield message
+                if reader.ended:
+                    return
+        raise ClientError(f"{self.url} closed the stream before session {session} had ended")
+
+    def device(self, session: str, *, name: str = "python") -> Device:
+        """Be the device of a session that was made with the device `network` or `browser`; `async with` connects.
+
+        help(ream.device) has the frames and the rules. name: who you are, for the server. Needs python3-websockets and
+        python3-flatbuffers.
+        """
+        from .device import Device
+
+        return Device(self, session, name)
+
+    @contextlib.asynccontextmanager
+    async def _socket(self, address: str, refusals: dict[int, str] | None = None) -> AsyncIterator[Any]:
+        """An open WebSocket. What goes wrong with it is a ClientError, also while it is used.
+
+        refusals: what a status means where the server's own words cannot be had.
+        """
         try:
             import websockets
         except ImportError:
-            raise ImportError("Client.changes() needs websockets: apt install python3-websockets") from None
+            raise ImportError("WebSockets of ream.client need websockets: apt install python3-websockets") from None
         headers = {"Authorization": f"Bearer {self._token}"} if self._token else {}
-        address = self.listen_to_changes(since=since)
+        opening = websockets.connect(
+            address,
+            extra_headers=headers,
+            ssl=self._tls,
+            compression=None,
+            max_size=_MAX_MESSAGE_BYTES,
+            open_timeout=self._timeout_s,
+        )
         try:
-            async with websockets.connect(address, extra_headers=headers, ssl=self._tls) as socket:
-                async for message in socket:
-                    yield json.loads(message)
-        except (OSError, ValueError, websockets.WebSocketException) as failure:
-            raise ClientError(f"{self.url} cannot be listened to: {failure}") from None
+            async with opening as socket:
+                yield socket
+        except websockets.InvalidStatusCode as refused:
+            status = refused.status_code
+            meant = (refusals or {}).get(status, f"the server refused the WebSocket with status {status}")
+            raise await asyncio.to_thread(self._refused, address, status, meant) from None
+        except websockets.ConnectionClosedError as closed:
+            why = closed.rcvd.reason if closed.rcvd is not None and closed.rcvd.reason else "the connection broke"
+            raise ClientError(f"{self.url} has closed the connection: {why}") from None
+        except (OSError, ValueError, asyncio.TimeoutError, websockets.WebSocketException) as failure:
+            why = str(failure) or type(failure).__name__
+            raise ClientError(f"{self.url} cannot be listened to: {why}") from None
+
+    def _refused(self, address: str, status: int, meant: str) -> ClientError:
+        """Why a WebSocket was refused: its answer is not passed on, so what it belongs to is asked for in plain HTTP."""
+        path = address.removeprefix("ws" + self.url[len("http") :]).partition("?")[0]
+        try:
+            self._ask("GET", path.rpartition("/")[0])
+        except ClientError as refusal:
+            if refusal.status == status:
+                return refusal
+        return ClientError(meant, status)
 
     def _address(self, path: str, query: dict[str, Any] | None = None) -> str:
         return "ws" + self.url.removeprefix("http") + path + _encoded(query)
@@ -160,7 +274,9 @@ class Client(Operations):
         body: Any = None,
         content: _Content | None = None,
         to_file: str | os.PathLike[str] | None = None,
+        heads: dict[str, str] | None = None,
     ) -> Any:
+        """heads: takes the answer's headers, names in lower case."""
         sent = {name: value for name, value in (headers or {}).items() if value is not None}
         if self._token:
             sent["Authorization"] = f"Bearer {self._token}"
@@ -174,6 +290,8 @@ class Client(Operations):
             with _failures(self.url):
                 connection.request(method, self._prefix + path + _encoded(query), bytes(content or b"") or None, sent)
                 reply = connection.getresponse()
+            if heads is not None:
+                heads.update((key.lower(), value) for key, value in reply.getheaders())
             if to_file is not None and reply.status in (200, 206):
                 return _saved(reply, pathlib.Path(to_file), self.url)
             with _failures(self.url):

@@ -18,7 +18,14 @@ from ream.environments import MAX_PUSH_N, OBSERVED, STEP_S, TASKS, Action, FreeH
 
 
 class Controller(Protocol):
-    """Decides what the hand does. One is made for each episode."""
+    """Decides what the hand does. One is made for each episode:
+
+        class MyController:
+            def __init__(self, environment, chance):    # ream.environments.Reaming, numpy.random.Generator
+                self.chance = chance
+            def __call__(self, observation):             # OBSERVED names its numbers; seen() finds one
+                return [0.5, 1.0]                        # of push-to-depth: push and trigger
+    """
 
     def __call__(self, observation: Observation) -> Action:
         """The action for what was observed."""
@@ -149,7 +156,10 @@ def run_episode(
 ) -> dict[str, Any]:
     """One episode to its end: `return`, `steps`, and the last info's `score` and `metrics`."""
     observation, _ = environment.reset(seed=seed)
-    controller = factory(environment, np.random.default_rng([seed, 1]))
+    try:
+        controller = factory(environment, np.random.default_rng([seed, 1]))
+    except TypeError as failure:
+        raise Error(f"a controller is made as MyController(environment, chance): {failure}") from failure
     watch(observation, None, 0.0)
     total, steps, ended = 0.0, 0, False
     info: dict[str, Any] = {}

@@ -17,11 +17,13 @@ import json
 import multiprocessing
 import os
 import pathlib
+import re
 import signal
 import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
+from multiprocessing.synchronize import Event
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -36,6 +38,8 @@ from ream.simulation import volume
 try:
     import h5py
 except ImportError:
+    if __name__ == "__main__":
+        sys.exit("ream.dataset: it needs h5py: apt install python3-h5py")
     raise ImportError("ream.dataset needs h5py: apt install python3-h5py") from None
 
 _PR_SET_PDEATHSIG = 1
@@ -43,6 +47,8 @@ _PR_SET_PDEATHSIG = 1
 _PACKED = {"compression": "gzip", "compression_opts": 4, "shuffle": True}
 #: Leaves room between the seeds of two data sets.
 _MAX_COUNT = 1_000_000
+#: What a process that was ended leaves of a file.
+_UNFINISHED = re.compile(r"(reaming-\d{6}\.h5|case\.h5|index\.h5|dataset\.json|DATASHEET\.md)\.\d+\.tmp")
 
 
 class Settings(NamedTuple):
@@ -109,6 +115,14 @@ def _only_one(folder: pathlib.Path) -> Iterator[None]:
         os.close(descriptor)
 
 
+class _Stopped(Exception):
+    """The data set is to be made no further for now."""
+
+
+#: In a process that makes reamings for another one: set when it is to stop.
+_stop: Event | None = None
+
+
 class _Episode:
     """Takes an episode down as it goes."""
 
@@ -125,6 +139,8 @@ class _Episode:
 
     def watch(self, observation: Observation, action: Action | None, reward: float) -> None:
         """See controllers.Watcher."""
+        if _stop is not None and _stop.is_set():
+            raise _Stopped
         self.observations.append(observation)
         self.ticks.append(self._environment.last_ticks)
         if action is not None:
@@ -217,9 +233,11 @@ class _Maker:
 _maker: _Maker | None = None
 
 
-def _begin_worker(folder: pathlib.Path, settings: Settings, parent: int) -> None:
-    global _maker
+def _begin_worker(folder: pathlib.Path, settings: Settings, parent: int, stop: Event) -> None:
+    global _maker, _stop
+    _stop = stop
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     # Ends with the process that began it, whatever ends that (prctl(2)).
     ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
@@ -230,7 +248,9 @@ def _begin_worker(folder: pathlib.Path, settings: Settings, parent: int) -> None
 
 def _work(index: int) -> int:
     assert _maker is not None
-    return _maker.make(index)
+    with contextlib.suppress(_Stopped):
+        _maker.make(index)
+    return index
 
 
 def _number(value: Any) -> float:
@@ -262,11 +282,11 @@ def _begin(folder: pathlib.Path, settings: Settings, maker: _Maker) -> None:
     """Writes dataset.json and case.h5, or refuses what is of other settings or of another bone."""
     about = {"ream": _version, **settings._asdict(), "bone": maker.bone_hash()}
     path = folder / "dataset.json"
-    for left in folder.glob("*.tmp"):
-        left.unlink()
+    unfinished = [file for file in folder.iterdir() if _UNFINISHED.fullmatch(file.name)]
     if not path.exists():
-        if any(file.name != "case.h5" for file in folder.iterdir()):
+        if any(file.name != "case.h5" and file not in unfinished for file in folder.iterdir()):
             raise Error(f"{folder} has something else in it; choose a new or empty folder")
+        _remove(unfinished)
         maker.write_case()
         _write(path, (json.dumps(about, indent=2) + "\n").encode())
         return
@@ -279,6 +299,12 @@ def _begin(folder: pathlib.Path, settings: Settings, maker: _Maker) -> None:
     for key, value in about.items():
         if found.get(key) != value:
             raise Error(f"{folder} was made with {key} {found.get(key)!r}, not {value!r}; choose another folder")
+    _remove(unfinished)
+
+
+def _remove(files: list[pathlib.Path]) -> None:
+    for file in files:
+        file.unlink()
 
 
 def make_dataset(
@@ -327,11 +353,21 @@ def _make_all(
             tell(done + 1)
     else:
         spawn = multiprocessing.get_context("spawn")
-        with ProcessPoolExecutor(jobs, spawn, _begin_worker, (place, settings, os.getpid())) as pool:
+        stop = spawn.Event()
+        with ProcessPoolExecutor(jobs, spawn, _begin_worker, (place, settings, os.getpid(), stop)) as pool:
             try:
-                for done, future in enumerate(as_completed([pool.submit(_work, index) for index in missing])):
+                # Processes begin while the first are submitted; Ctrl-C is for this one alone.
+                before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+                try:
+                    submitted = [pool.submit(_work, index) for index in missing]
+                finally:
+                    signal.pthread_sigmask(signal.SIG_SETMASK, before)
+                for done, future in enumerate(as_completed(submitted)):
                     future.result()
                     tell(done + 1)
+            except KeyboardInterrupt:
+                stop.set()
+                raise
             except BrokenProcessPool:
                 raise Error("a process was ended from outside, perhaps for want of memory; try fewer --jobs") from None
             finally:

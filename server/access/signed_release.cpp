@@ -119,20 +119,6 @@ SignedRelease verify_signature(const fs::path& folder, const std::string& text, 
   return {signer, comment, {}};
 }
 
-std::string sha256_of(const fs::path& file) {
-  std::ifstream stream = opened(file);
-  crypto_hash_sha256_state state;
-  crypto_hash_sha256_init(&state);
-  std::vector<char> part(1 << 20);
-  while (stream.read(part.data(), static_cast<std::streamsize>(part.size())) || stream.gcount() > 0)
-    crypto_hash_sha256_update(&state, reinterpret_cast<const unsigned char*>(part.data()),
-                              static_cast<unsigned long long>(stream.gcount()));
-  if (stream.bad()) throw Error(ErrorKind::io, "cannot read " + file.string());
-  std::string hash(crypto_hash_sha256_BYTES, '\0');
-  crypto_hash_sha256_final(&state, reinterpret_cast<unsigned char*>(hash.data()));
-  return hex_of(hash);
-}
-
 /// "<hash>  <name>" a line, as sha256sum writes it; names lie in the folder itself.
 void verify_files(const fs::path& folder, const std::string& sums, std::vector<std::string>& names) {
   constexpr size_t digits = 2 * size_t{crypto_hash_sha256_BYTES};
@@ -155,6 +141,20 @@ void verify_files(const fs::path& folder, const std::string& sums, std::vector<s
 }
 
 }  // namespace
+
+std::string sha256_of(const fs::path& file) {
+  std::ifstream stream = opened(file);
+  crypto_hash_sha256_state state;
+  crypto_hash_sha256_init(&state);
+  std::vector<char> part(1 << 20);
+  while (stream.read(part.data(), static_cast<std::streamsize>(part.size())) || stream.gcount() > 0)
+    crypto_hash_sha256_update(&state, reinterpret_cast<const unsigned char*>(part.data()),
+                              static_cast<unsigned long long>(stream.gcount()));
+  if (stream.bad()) throw Error(ErrorKind::io, "cannot read " + file.string());
+  std::string hash(crypto_hash_sha256_BYTES, '\0');
+  crypto_hash_sha256_final(&state, reinterpret_cast<unsigned char*>(hash.data()));
+  return hex_of(hash);
+}
 
 SignedRelease verify_release(const fs::path& folder, const std::string& key) {
   require_sodium();

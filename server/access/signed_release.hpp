@@ -17,4 +17,7 @@ struct SignedRelease {
 /// what the list says, or is not in it.
 SignedRelease verify_release(const std::filesystem::path& folder, const std::string& key);
 
+/// 64 hexadecimal digits, lower case. Errors: not_found; io.
+std::string sha256_of(const std::filesystem::path& file);
+
 }  // namespace ream::access

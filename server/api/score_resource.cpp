@@ -35,7 +35,8 @@ net::Response get_score(const Services& services, const net::Request& request) {
   std::error_code failed;
   if (!live && rubric.empty() && benchmark.empty() && fs::exists(session::score_json(folder), failed))
     return score_response(id, "kept", read_json_file(session::score_json(folder)));
-  const session::Judge judge = services.stores.judge_by(rubric, benchmark);
+  session::Judge judge = services.stores.judge_by(rubric, benchmark);
+  judge.by_plugin = !live;  // it is promised to be asked of what has ended
   const json metrics = services.sessions.metrics(id);
   return score_response(id, live ? "live" : "computed",
                         session::score_document(services.engine.program(), about(record), metrics, judge));
@@ -45,7 +46,7 @@ net::Response get_score(const Services& services, const net::Request& request) {
 net::Response preview_score(const Services& services, const net::Request& request) {
   const std::string& id = id_of(request);
   const session::SessionRecord record = services.sessions.get(id);
-  const session::Judge judge{requested_rubric(body_of(request)), "", nullptr};
+  const session::Judge judge{requested_rubric(body_of(request)), "", nullptr, false};
   const json document =
       session::score_document(services.engine.program(), about(record), services.sessions.metrics(id), judge);
   return score_response(id, is_live(record.status.state) ? "live" : "computed", document);

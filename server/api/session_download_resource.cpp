@@ -126,13 +126,16 @@ session::ExportOrder order_in(const json& body, const session::ExportFormat& for
     throw net::RequestError(422,
                             "only a table has a part from_s, to_s, stride; '" + format.name + "' is none",
                             {{"#/format", "is no table"}});
-  if (!format.is_report() && (body.contains("rubric") || body.contains("benchmark")))
-    throw net::RequestError(422, "only a report has a rubric and a benchmark; '" + format.name + "' is none",
-                            {{"#/format", "is no report"}});
+  if (!format.is_report() &&
+      (body.contains("rubric") || body.contains("benchmark") || body.contains("component_load")))
+    throw net::RequestError(
+        422, "only a report has a rubric, a benchmark and component_load; '" + format.name + "' is none",
+        {{"#/format", "is no report"}});
   session::ExportOrder order;
   order.part = {body.value("from_s", 0.0), optional_in<double>(body, "to_s"), body.value("stride", 1)};
   order.rubric = body.value("rubric", order.rubric);
   order.benchmark = text_in(body, "benchmark");
+  order.component_load = body.value("component_load", false);
   return order;
 }
 

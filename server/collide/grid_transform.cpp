@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "geometry/ordered_product.hpp"
+
 namespace ream::collide {
 namespace {
 
@@ -94,7 +96,8 @@ double Odometer::advance(const Pose& grid_from_tool) noexcept {
   // A point's way between two poses is linear in its place, so a corner of the box goes farthest.
   for (int i = 0; started_ && i < 8; ++i) {
     const Vec3 corner = box_.corner(i);
-    moved_mm = std::max(moved_mm, length_bound(grid_from_tool.point(corner) - previous_.point(corner)));
+    moved_mm = std::max(
+        moved_mm, length_bound(ordered_point(grid_from_tool, corner) - ordered_point(previous_, corner)));
   }
   started_ = true;
   previous_ = grid_from_tool;

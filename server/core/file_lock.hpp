@@ -10,7 +10,8 @@ namespace ream {
 /// ends; the file itself stays. Works between processes and within one.
 class FileLock {
  public:
-  /// Makes the file if need be. Empty when somebody else holds it. Throws Error io.
+  /// Makes the file if need be. Empty when somebody else holds it, and still does 0.1 s later, or moves it
+  /// away. Throws Error io.
   static std::optional<FileLock> attempt(const std::filesystem::path& path);
   /// Of a file or folder that is there. Empty when somebody else holds it, it is gone, or the file system has
   /// no locks.

@@ -93,6 +93,12 @@ DeviceTraits traits_of(const Published& row) {
   return traits;
 }
 
+/// Of plug-ins.
+std::vector<DeviceTraits>& more_profiles() {
+  static std::vector<DeviceTraits> profiles;
+  return profiles;
+}
+
 }  // namespace
 
 DeviceTraits device_profile(const std::string& name) {
@@ -101,13 +107,30 @@ DeviceTraits device_profile(const std::string& name) {
     if (name == row.name) return traits_of(row);
     names += (names.empty() ? "" : ", ") + std::string(row.name);
   }
+  for (const DeviceTraits& traits : more_profiles()) {
+    if (name == traits.name) return traits;
+    names += ", " + traits.name;
+  }
   throw Error(ErrorKind::invalid_input, "no device profile '" + name + "'; there are " + names);
 }
 
 std::vector<std::string> device_profile_names() {
   std::vector<std::string> names;
   for (const Published& row : table) names.emplace_back(row.name);
+  for (const DeviceTraits& traits : more_profiles()) names.push_back(traits.name);
   return names;
+}
+
+void add_device_profile(DeviceTraits traits) {
+  for (const std::string& name : device_profile_names())
+    if (name == traits.name)
+      throw Error(ErrorKind::conflict,
+                  "there is a device profile '" + name + "' already; choose another name");
+  traits.profile = traits.name;
+  traits.angular_stiffness_max_n_mm_rad = traits.stiffness_max_n_mm * lever_squared_m2 * mm_per_m * mm_per_m;
+  traits.start_up_ramp_s = default_ramp_s;
+  traits.vibration_max_n = vibration_share * traits.force_max_n;
+  more_profiles().push_back(std::move(traits));
 }
 
 const char* device_axes(const std::string& device) {

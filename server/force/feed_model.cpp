@@ -89,6 +89,11 @@ constexpr std::array models{
                    make<EmpiricalFeedModel>},
     FeedModelEntry{"oblique", "cutting mechanics of its appendix A", make<ObliqueFeedModel>}};
 
+std::optional<PluginFeedModel>& offered() {
+  static std::optional<PluginFeedModel> model;
+  return model;
+}
+
 }  // namespace
 
 double empirical_feed_mm_s(int bone_class, double density_g_cc, double specimen_factor) noexcept {
@@ -173,7 +178,18 @@ std::string feed_model_names(const std::string& quote) {
 }
 
 std::unique_ptr<FeedModel> make_feed_model(const FeedSettings& settings, const Lip& lip) {
-  return models[static_cast<size_t>(settings.kind)].make(settings, lip);
+  if (!settings.plugin) return models[static_cast<size_t>(settings.kind)].make(settings, lip);
+  if (offered_feed_model() != settings.plugin)
+    throw Error(ErrorKind::conflict,
+                "the session was made with " + settings.plugin->in_words() + ": give its file with --plugin" +
+                    (offered() ? "; the one that was given is " + offered()->plugin.in_words() : ""));
+  return offered()->make(settings);
+}
+
+void offer_feed_model(PluginFeedModel model) { offered() = std::move(model); }
+
+std::optional<PluginIdentity> offered_feed_model() {
+  return offered() ? std::optional(offered()->plugin) : std::nullopt;
 }
 
 }  // namespace ream::force

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -8,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/plugin_identity.hpp"
 #include "force/coefficients.hpp"
 #include "force/oblique_cutting.hpp"
 
@@ -61,6 +63,7 @@ struct FeedSettings {
   /// from 0.71 to 1.09 in cortical and from 0.91 to 1.10 in cancellous bone. Scales every class alike.
   double specimen_factor = 1.0;
   CuttingCoefficients cutting;
+  std::optional<PluginIdentity> plugin = std::nullopt;  ///< whose model it is, in place of one of `kind`
 };
 
 /// A feed model as command line, scripts and recordings name it.
@@ -81,8 +84,20 @@ FeedKind feed_kind_from_text(const std::string& text);
 /// All names for messages, each between `quote`s: "edge, thesis or oblique".
 std::string feed_model_names(const std::string& quote = "");
 
-/// Errors: invalid_input when the lip cuts nothing, or its thrust does not rise with the feed.
+/// Errors: invalid_input when the lip cuts nothing, or its thrust does not rise with the feed; conflict when
+/// the model is that of another plug-in than the one that was offered.
 std::unique_ptr<FeedModel> make_feed_model(const FeedSettings& settings, const Lip& lip);
+
+/// The feed model of a plug-in that has been loaded.
+struct PluginFeedModel {
+  PluginIdentity plugin;
+  std::function<std::unique_ptr<FeedModel>(const FeedSettings& settings)> make;
+};
+/// From now on make_feed_model() makes it where settings name it; one a process, the last one. To be called
+/// before there are sessions.
+void offer_feed_model(PluginFeedModel model);
+/// Whose model new sessions have; empty: none was offered.
+std::optional<PluginIdentity> offered_feed_model();
 
 /// Feed rate of one class (0 cancellous, 1 cortical, 2 cartilage) at the reference thrust and spindle speed,
 /// mm/s: thesis eqs 5.1 and 5.2 times the specimen's factor; never below min_feed_mm_s.

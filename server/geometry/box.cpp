@@ -1,10 +1,12 @@
 #include "geometry/box.hpp"
 
+#include "geometry/ordered_product.hpp"
+
 namespace ream {
 
 Aabb Aabb::transformed(const Pose& a_from_b) const {
-  const Vec3 c = a_from_b.point(centre());
-  const Vec3 h = a_from_b.rotation.cwiseAbs() * half_size();
+  const Vec3 c = ordered_point(a_from_b, centre());
+  const Vec3 h = ordered_product(a_from_b.rotation.cwiseAbs(), half_size());
   return {c - h, c + h};
 }
 

@@ -46,6 +46,7 @@ Buffer Buffer::over_bytes(const Queue& queue, const void* host, size_t bytes) {
 
 void Buffer::write(const Queue& queue, const void* from, size_t bytes, size_t offset) {
   if (bytes == 0) return;
+  queue.traffic().bytes_to_device += bytes;
   check(
       clEnqueueWriteBuffer(queue.handle(), memory_.get(), CL_TRUE, offset, bytes, from, 0, nullptr, nullptr),
       "clEnqueueWriteBuffer");
@@ -53,6 +54,7 @@ void Buffer::write(const Queue& queue, const void* from, size_t bytes, size_t of
 
 void Buffer::read(const Queue& queue, void* to, size_t bytes, size_t offset) const {
   if (bytes == 0) return;
+  queue.traffic().bytes_from_device += bytes;
   check(clEnqueueReadBuffer(queue.handle(), memory_.get(), CL_TRUE, offset, bytes, to, 0, nullptr, nullptr),
         "clEnqueueReadBuffer");
 }

@@ -61,6 +61,9 @@ void append_devices(cl_platform_id platform, std::vector<Device>& devices) {
     device.may_share_host_memory = device.is_cpu;
     device.is_pocl = platform_name == "Portable Computing Language";
     device.knows_doubles = value_of<cl_device_fp_config>(id, CL_DEVICE_DOUBLE_FP_CONFIG) != 0;
+    device.keeps_small_floats =
+        (value_of<cl_device_fp_config>(id, CL_DEVICE_SINGLE_FP_CONFIG) & CL_FP_DENORM) != 0;
+    device.memory_bytes = value_of<cl_ulong>(id, CL_DEVICE_GLOBAL_MEM_SIZE);
     device.max_buffer_bytes = value_of<cl_ulong>(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE);
     device.max_local_size = value_of<size_t>(id, CL_DEVICE_MAX_WORK_GROUP_SIZE);
     devices.push_back(std::move(device));

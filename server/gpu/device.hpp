@@ -39,9 +39,11 @@ struct Device {
   std::string name, platform, driver;
   bool is_cpu = false;
   bool is_pocl = false;
-  bool knows_doubles = false;  ///< cl_khr_fp64
+  bool knows_doubles = false;       ///< cl_khr_fp64
+  bool keeps_small_floats = false;  ///< below 1e-38, denormalized: they do not become zero
   /// CPUs are tried for working on the host's own arrays; false makes every buffer a copy.
   bool may_share_host_memory = false;
+  size_t memory_bytes = 0;  ///< for all buffers together
   size_t max_buffer_bytes = 0;
   size_t max_local_size = 0;
 };

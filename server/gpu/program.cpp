@@ -140,6 +140,7 @@ void Kernel::set_bytes(unsigned index, const void* value, size_t bytes) {
 
 void Kernel::enqueue(const Queue& queue, size_t global, size_t local, size_t rows) const {
   if (global == 0 || rows == 0) return;
+  ++queue.traffic().launches;
   const size_t whole[2] = {(global + local - 1) / local * local, rows}, groups_of[2] = {local, 1};
   const cl_uint dimensions = rows == 1 ? 1 : 2;
   const cl_int status = clEnqueueNDRangeKernel(queue.handle(), kernel_.get(), dimensions, nullptr, whole,

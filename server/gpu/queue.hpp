@@ -1,7 +1,14 @@
 #pragma once
+#include <cstdint>
+
 #include "gpu/device.hpp"
 
 namespace ream::gpu {
+
+/// What a queue has been given to do, for measuring. Shared memory is not copied.
+struct Traffic {
+  uint64_t launches = 0, bytes_to_device = 0, bytes_from_device = 0;
+};
 
 /// A context on one device and one in-order command queue in it. Buffers, programs and kernels made with a
 /// queue belong to it and must not outlive it. Used by one thread at a time.
@@ -18,6 +25,8 @@ class Queue {
   /// Waits until everything enqueued is done. Throws Error unavailable when any of it failed.
   void finish() const;
 
+  Traffic& traffic() const { return traffic_; }
+
   _cl_context* context() const { return context_.get(); }
   _cl_command_queue* handle() const { return queue_.get(); }
 
@@ -28,6 +37,7 @@ class Queue {
   Handle<_cl_context> context_;
   Handle<_cl_command_queue> queue_;
   bool shares_host_memory_ = false;
+  mutable Traffic traffic_;
 };
 
 }  // namespace ream::gpu

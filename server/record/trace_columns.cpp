@@ -5,6 +5,8 @@
 namespace ream::record {
 namespace {
 
+constexpr tables::ColumnType count = tables::ColumnType::count, flag = tables::ColumnType::flag;
+
 constexpr std::array columns = {
     TraceColumn{"t_s", "s", "Time since the start of the session, pauses among it."},
     TraceColumn{"handle_x_mm", "mm", "Where the hand holds the handle, x in the world frame."},
@@ -29,8 +31,8 @@ constexpr std::array columns = {
                 "Part y of the unit quaternion that turns the reamer's frame into the world frame."},
     TraceColumn{"tool_qz", "",
                 "Part z of the unit quaternion that turns the reamer's frame into the world frame."},
-    TraceColumn{"spindle_on", "", "1 while the spindle is on."},
-    TraceColumn{"paused", "", "1 while the session is paused."},
+    TraceColumn{"spindle_on", "", "1 while the spindle is on.", flag},
+    TraceColumn{"paused", "", "1 while the session is paused.", flag},
     TraceColumn{"thrust_n", "N",
                 "Simulated force of the bone along the reamer's axis; pressing into the bone is positive."},
     TraceColumn{"hand_force_x_n", "N", "Force that the device was sent, x in the world frame."},
@@ -42,14 +44,14 @@ constexpr std::array columns = {
     TraceColumn{"guide_force_n", "N", "Simulated force that the guide or the pilot hole takes."},
     TraceColumn{"vibration_g", "g", "Acceleration of the reamer by cutting, beside what contact does."},
     TraceColumn{"hand_weakened", "",
-                "1 where the hand feels clearly less than the simulated force over the force scale."},
+                "1 where the hand feels clearly less than the simulated force over the force scale.", flag},
     TraceColumn{"feed_rate_mm_s", "mm/s", "Speed of the reamer along its axis while it touches bone."},
     TraceColumn{"density_g_cc", "g/cm3",
                 "Mean density of the bone that the cutting edges touch; 0 without contact."},
     TraceColumn{"share_cancellous", "", "Share of the touched bone that is cancellous."},
     TraceColumn{"share_cortical", "", "Share of the touched bone that is cortical."},
     TraceColumn{"share_cartilage", "", "Share of what is touched that is cartilage."},
-    TraceColumn{"engaged_points", "", "Number of the reamer's points in bone."},
+    TraceColumn{"engaged_points", "", "Number of the reamer's points in bone.", count},
     TraceColumn{"removed_volume_mm3", "mm3", "Bone removed since the start of the session."},
     TraceColumn{"bone_x_mm", "mm", "How far the mount has let the bone move, x in the world frame."},
     TraceColumn{"bone_y_mm", "mm", "How far the mount has let the bone move, y in the world frame."},
@@ -59,8 +61,8 @@ constexpr std::array columns = {
     TraceColumn{"bone_qy", "", "Part y of the unit quaternion by which the bone has turned since the start."},
     TraceColumn{"bone_qz", "", "Part z of the unit quaternion by which the bone has turned since the start."},
     TraceColumn{"spindle_speed_rad_s", "rad/s", "Simulated speed of the spindle; in reverse negative."},
-    TraceColumn{"stalled", "", "1 while the drive cannot turn the reamer."},
-    TraceColumn{"irrigating", "", "1 while the bone is irrigated."},
+    TraceColumn{"stalled", "", "1 while the drive cannot turn the reamer.", flag},
+    TraceColumn{"irrigating", "", "1 while the bone is irrigated.", flag},
     TraceColumn{"surface_temperature_c", "°C",
                 "Temperature of the bone under the reamer; 35 where nothing has warmed it."},
     TraceColumn{

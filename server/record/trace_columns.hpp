@@ -1,14 +1,12 @@
 #pragma once
 #include <span>
-#include <string_view>
+
+#include "tables/column_batch.hpp"
 
 namespace ream::record {
 
 /// A column of trace.csv. The last letters of its name are its unit.
-struct TraceColumn {
-  std::string_view name, unit;  ///< unit "" where there is none
-  std::string_view meaning;     ///< a sentence for people
-};
+using TraceColumn = tables::Column;
 
 /// In the file's order.
 std::span<const TraceColumn> trace_columns();

@@ -9,6 +9,35 @@ namespace {
 
 constexpr render::VertexColour bone_colour{189, 183, 172, 0};
 
+std::string in_words(const std::vector<DeviationClass>& classes) {
+  std::string words;
+  for (const DeviationClass& each : classes) words += (words.empty() ? "" : ", ") + each.words;
+  return words;
+}
+
+std::vector<render::VertexColour> colours_of(std::span<const int8_t> codes,
+                                             const std::vector<DeviationClass>& classes, double step) {
+  std::vector<render::VertexColour> colours;
+  colours.reserve(codes.size());
+  for (const int8_t code : codes) {
+    const auto of = std::find_if(classes.begin(), classes.end(),
+                                 [&](const DeviationClass& each) { return code * step <= each.up_to; });
+    colours.push_back(code == score::deviation_unknown ? bone_colour : of->colour);
+  }
+  return colours;
+}
+
+/// Percent.
+const std::vector<DeviationClass>& strain_classes() {
+  static const std::vector<DeviationClass> classes = {
+      {0.1, {255, 255, 178, 0}, "up to 0.1 %"},
+      {0.3, {254, 204, 92, 0}, "0.1 to 0.3 %"},
+      {0.7, {240, 99, 42, 0}, "0.3 to 0.7 %"},
+      {1e9, {128, 0, 38, 255}, "over 0.7 % (hatched)"},
+  };
+  return classes;
+}
+
 }  // namespace
 
 const std::vector<DeviationClass>& deviation_classes() {
@@ -28,7 +57,7 @@ render::VertexColour deviation_colour(int8_t code) {
   if (code == score::deviation_unknown) return bone_colour;
   const double mm = score::deviation_mm(code);
   for (const DeviationClass& each : deviation_classes())
-    if (mm <= each.up_to_mm) return each.colour;
+    if (mm <= each.up_to) return each.colour;
   return bone_colour;
 }
 
@@ -41,22 +70,16 @@ const std::vector<DeviationClass>& wall_classes() {
   return classes;
 }
 
-std::string wall_classes_in_words() {
-  std::string words;
-  for (const DeviationClass& each : wall_classes()) words += (words.empty() ? "" : ", ") + each.words;
-  return words;
-}
+std::string wall_classes_in_words() { return in_words(wall_classes()); }
 
 std::vector<render::VertexColour> wall_colours(std::span<const int8_t> codes) {
-  std::vector<render::VertexColour> colours;
-  colours.reserve(codes.size());
-  for (const int8_t code : codes) {
-    const double mm = code * score::wall_step_mm;
-    const auto of = std::find_if(wall_classes().begin(), wall_classes().end(),
-                                 [&](const DeviationClass& each) { return mm <= each.up_to_mm; });
-    colours.push_back(code == score::deviation_unknown ? bone_colour : of->colour);
-  }
-  return colours;
+  return colours_of(codes, wall_classes(), score::wall_step_mm);
+}
+
+std::string strain_classes_in_words() { return in_words(strain_classes()); }
+
+std::vector<render::VertexColour> strain_colours(std::span<const int8_t> codes) {
+  return colours_of(codes, strain_classes(), 100.0 * strain_step);
 }
 
 std::vector<render::VertexColour> deviation_colours(std::span<const int8_t> codes) {

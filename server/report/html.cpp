@@ -159,6 +159,24 @@ std::string course(const Report& report) {
   return element("section", content, "charts");
 }
 
+std::string load(const Report& report) {
+  if (!report.load) return "";
+  const LoadSection& section = *report.load;
+  std::string heads, rows;
+  for (const std::string& head : section.heads) heads += element("th", escaped(head));
+  for (const std::vector<std::string>& row : section.rows) {
+    std::string cells;
+    for (const std::string& text : row) cells += element("td", escaped(text));
+    rows += element("tr", cells);
+  }
+  std::string content = text_element("h2", "Component under load") + text_element("p", section.words);
+  content += element(
+      "div", element("table", element("thead", element("tr", heads)) + element("tbody", rows), "load"),
+      "scroll");
+  if (section.map) content += element("div", figure(*section.map), "pictures");
+  return element("section", content + text_element("p", section.assumptions, "note"));
+}
+
 std::string learning(const Report& report) {
   if (report.learning_words.empty() && report.benchmark.empty()) return "";
   std::string content = text_element("h2", "Learning") + text_element("p", report.learning_words);
@@ -191,8 +209,8 @@ std::string html_of(const Report& report) {
          "img-src data:\">\n" +
          text_element("title", report.title + " \u2013 " + report.subtitle) + "<style>\n" + style +
          "</style>\n</head>\n<body>\n" +
-         element("main", head(report) + advice(report) + pictures(report) + metrics(report) + course(report) +
-                             learning(report) + notes(report)) +
+         element("main", head(report) + advice(report) + pictures(report) + metrics(report) + load(report) +
+                             course(report) + learning(report) + notes(report)) +
          "</body>\n</html>\n";
 }
 

@@ -123,6 +123,7 @@ Report make_report(const Material& m) {
   else
     report.why_no_charts = "The session ended before its first moment was recorded.";
   report.remarks = m.remarks;
+  if (m.load) report.load = load_section(*m.load);
   report.learning_charts = learning_charts(m.learning, m.rubric.pass_points);
   report.learning_words = learning_words(m.learning);
   put_benchmark(m, report);

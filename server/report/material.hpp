@@ -46,6 +46,24 @@ struct Remark {
   std::string words, author;
 };
 
+/// A component on the glenoid in one state, under the worst of its loads.
+struct LoadedGlenoid {
+  std::string name;  ///< "Before", "As planned", "As reamed"
+  double supported_percent = 0.0, support_lost_percent = 0.0;
+  double motion_um = 0.0;
+  std::optional<double> plate_strain;  ///< 99 % of the plate under the component has less
+  double overstrained_percent = 0.0;
+};
+
+/// A component under load on bone, for the report's own page.
+struct LoadMaterial {
+  double force_n = 0.0, cell_mm = 0.0;
+  std::string law;  ///< of the bone's modulus
+  bool settled = true;
+  std::vector<LoadedGlenoid> states;
+  std::optional<Picture> map;
+};
+
 /// Everything that a report is made of.
 struct Material {
   SessionFacts session;
@@ -60,6 +78,7 @@ struct Material {
   score::LearningCurve learning;  ///< the trainee's sessions up to this one; may be empty
   std::vector<Picture> pictures;
   std::string why_no_pictures;  ///< one sentence, where there are none
+  std::optional<LoadMaterial> load;
 };
 
 }  // namespace ream::report

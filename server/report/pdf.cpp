@@ -57,11 +57,16 @@ class PdfPages {
   void advice();
   void pictures();
   void picture(const Picture& picture, double left, double width);
+  /// With its words.
+  static double height_of(const Picture& picture, double width) {
+    return width * picture.image.height / picture.image.width + 38.0;
+  }
   void legend();
   void metrics();
   void table(const MetricTable& table);
   void table_heads();
   void table_line(const MetricLine& line);
+  void load();
   void course();
   void chart(const Chart& chart, double left, double width, double height);
   void remarks();
@@ -89,6 +94,7 @@ int PdfPages::lay_out() {
   advice();
   pictures();
   metrics();
+  load();
   course();
   learning();
   notes();
@@ -223,7 +229,7 @@ void PdfPages::pictures() {
   }
   for (size_t i = 0; i < report_.pictures.size(); i += 2) {
     const Picture& left = report_.pictures[i];
-    const double height = width * left.image.height / left.image.width + 38.0;
+    const double height = height_of(left, width);
     if (i == 0)
       heading("Pictures", height);
     else
@@ -267,6 +273,39 @@ void PdfPages::course() {
     y_ += pdf_chart_height + 4.0;
   }
   remarks();
+}
+
+void PdfPages::load() {
+  if (!report_.load) return;
+  const LoadSection& section = *report_.load;
+  const double first = 210.0;
+  const double rest =
+      (text_width - first) / static_cast<double>(std::max<size_t>(1, section.heads.size() - 1));
+  const auto row = [&](const std::vector<std::string>& cells, const Type& type) {
+    double height = 0.0;
+    for (size_t i = 0; i < cells.size(); ++i)
+      height = std::max(height, sheet_.height_of((i == 0 ? first : rest) - 6.0, cells[i], type));
+    need(height + 4.0);
+    for (size_t i = 0; i < cells.size(); ++i)
+      sheet_.paragraph(margin + (i == 0 ? 0.0 : first + rest * static_cast<double>(i - 1)), y_,
+                       (i == 0 ? first : rest) - 6.0, cells[i], type);
+    y_ += height + 1.5;
+    sheet_.straight({margin, y_}, {PdfSheet::page_width - margin, y_}, hair);
+    y_ += 2.0;
+  };
+  heading("Component under load", 120.0);
+  words(section.words, body);
+  y_ += 4.0;
+  row(section.heads, {7.2, grey(0.35), true, Anchor::left});
+  for (const std::vector<std::string>& cells : section.rows) row(cells, body);
+  y_ += 4.0;
+  if (section.map) {
+    const double width = 0.62 * text_width;
+    need(height_of(*section.map, width));
+    picture(*section.map, margin, width);
+    y_ += height_of(*section.map, width);
+  }
+  words(section.assumptions, soft);
 }
 
 void PdfPages::remarks() {

@@ -29,6 +29,14 @@ struct MetricTable {
   std::vector<MetricLine> lines;
 };
 
+/// A component under load as it is printed: on a page of its own.
+struct LoadSection {
+  std::string words, assumptions;
+  std::vector<std::string> heads;
+  std::vector<std::vector<std::string>> rows;  ///< the first cell names what is measured
+  std::optional<Picture> map;
+};
+
 /// A report in words, numbers and pictures, before it is laid out: the same for HTML and PDF.
 struct Report {
   std::string title, subtitle;
@@ -48,6 +56,7 @@ struct Report {
   std::vector<Chart> charts;
   std::string why_no_charts;
   std::vector<Remark> remarks;
+  std::optional<LoadSection> load;
   std::vector<Chart> learning_charts;
   std::string learning_words;
   std::string benchmark_words;
@@ -59,6 +68,7 @@ struct Report {
 
 /// Says what a session says, and what it does not; never a number that is not there.
 Report make_report(const Material& material);
+LoadSection load_section(const LoadMaterial& material);
 
 /// "pass", "warn", "fail", "not said", and a sign that is told apart without colour.
 std::string mark_word(Mark mark);

@@ -182,6 +182,13 @@ Picture axes_from_the_front(const ReamedBone& bone, const Directions& d) {
 
 }  // namespace
 
+Picture strain_picture(const ReamedBone& bone, const std::vector<int8_t>& codes) {
+  Picture picture = painted_face(bone, strain_colours(codes), directions_of(bone));
+  picture.title = "Strain of the bone under the component, as reamed";
+  picture.caption = "The greatest of all loads, from light to dark: " + strain_classes_in_words() + ".";
+  return picture;
+}
+
 std::vector<Picture> session_pictures(const ReamedBone& bone) {
   const Directions d = directions_of(bone);
   std::vector<Picture> pictures;

@@ -30,4 +30,7 @@ struct ReamedBone {
 /// the planned axis; superior and anterior are those of the glenoid frame, without one the patient's.
 std::vector<Picture> session_pictures(const ReamedBone& bone);
 
+/// The face, coloured by strain under a component: `codes` of the vertices of `after`, see strain_colours().
+Picture strain_picture(const ReamedBone& bone, const std::vector<int8_t>& codes);
+
 }  // namespace ream::report

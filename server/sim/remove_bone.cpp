@@ -8,16 +8,15 @@ namespace {
 
 /// Cuts what is due; state.changed holds what has changed.
 bool cut_profile(State& state, const QuantisedPose& pose, collide::RemovalSums& sums) noexcept {
-  const auto due = state.schedule.due(pose);
-  const bool ok = work_or_fail_over(
-      state, [&](const Backend& backend) { return backend.removal->cut(pose, due, state.outcomes, sums); });
   state.changed_count = 0;
-  if (!ok) return false;
-  for (size_t i = 0; i < due.size(); ++i) {
-    state.schedule.cut_done(i, state.outcomes[i]);
-    if (state.outcomes[i].changed) state.changed[state.changed_count++] = due[i];
-  }
-  return true;
+  return collide::cut_due(
+      state.schedule, pose, state.outcomes,
+      [&](std::span<const uint32_t> due) {
+        return work_or_fail_over(state, [&](const Backend& backend) {
+          return backend.removal->cut(pose, due, state.outcomes, sums);
+        });
+      },
+      [&](uint32_t brick) { state.changed[state.changed_count++] = brick; });
 }
 
 /// Solid cells, followers and devices with memory of their own learn of changed bricks.

@@ -22,6 +22,7 @@ class Writer {
   void field(const char* key, bool value) { json_[key] = value; }
   void field(const char* key, const Vec3& v) { json_[key] = {v.x(), v.y(), v.z()}; }
   void field(const char* key, const std::filesystem::path& value) { json_[key] = value.string(); }
+  void field(const char* key, const std::string& value) { json_[key] = value; }
   void field(const char* key, RemovalLaw value) { json_[key] = to_text(value); }
   void field(const char* key, force::FeedKind value) { json_[key] = force::to_text(value); }
   void field(const char* key, force::VibrationSource value) { json_[key] = force::to_text(value); }
@@ -34,6 +35,11 @@ class Writer {
   template <typename Part>
   void part(const char* key, const std::optional<Part>& value) {
     json_[key] = nullptr;
+    if (value) part(key, *value);
+  }
+  /// Nothing where there is nothing, as earlier versions wrote it.
+  template <typename Part>
+  void rare_part(const char* key, const std::optional<Part>& value) {
     if (value) part(key, *value);
   }
   json take() { return std::move(json_); }
@@ -62,6 +68,7 @@ class Reader {
     value = {numbers[0], numbers[1], numbers[2]};
   }
   void field(const char* key, std::filesystem::path& value) { value = reader_.text_or(key, value.string()); }
+  void field(const char* key, std::string& value) { value = reader_.text_or(key, value); }
   void field(const char* key, RemovalLaw& value) {
     if (reader_.has(key)) value = word(key, removal_law_from_text);
   }
@@ -82,6 +89,10 @@ class Reader {
   void part(const char* key, std::optional<Part>& value) {
     value.reset();
     if (reader_.has(key) && !value_.at(key).is_null()) part(key, value.emplace());
+  }
+  template <typename Part>
+  void rare_part(const char* key, std::optional<Part>& value) {
+    part(key, value);
   }
   void finish() const { reader_.finish(); }
 
@@ -118,11 +129,19 @@ void for_each_field(Visitor& v, Either<force::CuttingCoefficients> auto& c) {
 }
 
 template <typename Visitor>
+void for_each_field(Visitor& v, Either<PluginIdentity> auto& plugin) {
+  v.field("name", plugin.name);
+  v.field("version", plugin.version);
+  v.field("sha256", plugin.sha256);
+}
+
+template <typename Visitor>
 void for_each_field(Visitor& v, Either<force::FeedSettings> auto& feed) {
   v.field("kind", feed.kind);
   v.field("spindle_rad_s", feed.spindle_rad_s);
   v.field("specimen_factor", feed.specimen_factor);
   v.part("cutting", feed.cutting);
+  v.rare_part("plugin", feed.plugin);
 }
 
 template <typename Visitor>

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/clock.hpp"
-#include "core/hash.hpp"
+#include "record/session_hash.hpp"
 #include "sim/approach.hpp"
 #include "sim/guided_handle.hpp"
 #include "sim/press.hpp"
@@ -95,17 +95,6 @@ void heat_bone(const Model& model, State& state, const ToolLoad& load, TickRepor
   report.surface_temperature_c = state.heat.surface_c(model.settings.heat);
 }
 
-/// The cause of the tick as it is recorded, folded into the rolling hash.
-uint64_t hash_of_cause(const TickReport& report) {
-  uint64_t h = hash_combine(report.tick, static_cast<uint64_t>(report.spindle_on) |
-                                             static_cast<uint64_t>(report.paused) << 1 |
-                                             static_cast<uint64_t>(report.stale) << 2 |
-                                             static_cast<uint64_t>(record::drive_flags(report.drive)) << 8);
-  for (const int32_t q : report.grid_from_tool.rotation_q30) h = hash_combine(h, static_cast<uint32_t>(q));
-  for (const int32_t q : report.grid_from_tool.translation_nm) h = hash_combine(h, static_cast<uint32_t>(q));
-  return h;
-}
-
 bool is_finite(const TickReport& r) {
   return r.hand_force_n.allFinite() && r.hand_torque_n_mm.allFinite() &&
          r.world_from_tool.translation_mm.allFinite() && r.world_from_tool.rotation.allFinite() &&
@@ -166,7 +155,8 @@ StepStatus step(const Model& model, State& state, const device::DeviceInput& raw
   report.failed_over = state.failed_over_tick == report.tick;
   report.vibration_g = state.vibration.next_g(vibration_input(model, load, report));
   render(model, state.output, state.world_from_tool, load, report);
-  state.session_hash = hash_combine(state.session_hash, hash_of_cause(report));
+  state.session_hash =
+      record::hash_after(state.session_hash, report.tick, record::cause_flags(report), report.grid_from_tool);
   report.session_hash = state.session_hash;
   if (state.brick_sender != nullptr) {
     state.brick_sender->send(state.bone.coverage.data(), report.tick, state.brick_budget);

@@ -7,15 +7,12 @@
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "solve/elastic_operator.hpp"
+#include "solve/element_strains.hpp"
 #include "solve/parallel_vectors.hpp"
 #include "solve/sets.hpp"
 
 namespace ream::solve {
 namespace {
-
-constexpr double min_modulus_mpa = 1e-9, max_modulus_mpa = 1e12;
-/// Elements with eight corners lock beyond.
-constexpr double max_poisson = 0.49;
 
 /// The elements' box, and what each of its cells is made of.
 struct Cells {
@@ -120,34 +117,8 @@ std::vector<double> even_compression(const ElasticGrid& grid, const fe::Compress
   return displacements;
 }
 
-/// sqrt(u K u / V) of each element for a modulus of 1: its energy over its modulus.
-std::vector<float> effective_strains(const ElasticGrid& grid, double poisson,
-                                     const std::vector<double>& displacements, ThreadPool& pool) {
-  const BoxElement box(grid.cell_mm(), poisson);
-  const double volume_mm3 = grid.cell_mm().prod();
-  std::vector<float> strains(grid.elements());
-  for_parts(pool, strains.size(), [&](size_t begin, size_t end) {
-    Eigen::Matrix<double, 24, 1> u;
-    for (size_t e = begin; e < end; ++e) {
-      for (int c = 0; c < 8; ++c) {
-        const size_t corner = grid.corner_of_element(e, c);
-        for (int k = 0; k < 3; ++k) u[3 * c + k] = displacements[3 * corner + static_cast<size_t>(k)];
-      }
-      strains[e] = static_cast<float>(std::sqrt(std::max(0.0, u.dot(box.stiffness * u) / volume_mm3)));
-    }
-  });
-  return strains;
-}
-
-std::array<double, 4> quantiles(std::vector<float> strains) {
-  std::array<double, 4> found{};
-  const std::array<double, 4> shares{0.5, 0.95, 0.99, 1.0};
-  for (size_t i = 0; i < shares.size(); ++i) {
-    const auto at = static_cast<ptrdiff_t>(shares[i] * static_cast<double>(strains.size() - 1));
-    std::nth_element(strains.begin(), strains.begin() + at, strains.end());
-    found[i] = double{strains[static_cast<size_t>(at)]};
-  }
-  return found;
+std::array<double, 4> quantiles(const std::vector<float>& strains) {
+  return {quantile(strains, 0.5), quantile(strains, 0.95), quantile(strains, 0.99), quantile(strains, 1.0)};
 }
 
 void describe_bounds(const ElasticGrid& grid, const fe::Materials& materials,

@@ -8,6 +8,11 @@
 
 namespace ream::solve {
 
+/// What a modulus may be: beyond, numbers in single precision get lost.
+inline constexpr double min_modulus_mpa = 1e-9, max_modulus_mpa = 1e12;
+/// Elements with eight corners lock beyond.
+inline constexpr double max_poisson = 0.49;
+
 /// Elements on a regular grid of cells, and the corners that they have. Corners are numbered layer after
 /// layer, x fastest; each has three degrees of freedom, at 3 corner + axis.
 class ElasticGrid {
@@ -38,6 +43,9 @@ class ElasticGrid {
   std::span<const size_t> layer_corners() const { return layer_corners_; }
   /// The lattice's place of a corner.
   Vec3i place_of(size_t corner) const;
+
+  /// The lattice index of each corner's place.
+  std::span<const uint32_t> places() const { return places_; }
 
   /// Elements before each layer of cells; dims.z + 1 of them.
   std::span<const size_t> layer_elements() const { return layer_elements_; }

@@ -27,6 +27,8 @@ class ElasticOperator {
   /// No eigenvalue of the stiffness over its diagonal is above this.
   double greatest_over_diagonal() const { return greatest_; }
   const ElasticGrid& grid() const { return grid_; }
+  /// BoxElement's, rounded.
+  const std::array<std::array<Real, 9>, 8>& blocks() const { return blocks_; }
 
  private:
   const ElasticGrid& grid_;

@@ -8,6 +8,8 @@
 
 namespace ream::solve {
 
+class DirectSolution;
+
 /// One V-cycle of geometric multigrid on ever coarser grids, in single precision: nearly the inverse of a
 /// grid's stiffness, and symmetric, as conjugate gradients want it (after Flaig and Arbenz 2012, who solve
 /// bone so). Smoothed by Chebyshev polynomials of the operator over its diagonal; the coarsest grid is solved
@@ -27,12 +29,11 @@ class Multigrid {
 
  private:
   struct Level;
-  struct Coarsest;
-  void descend(size_t level);
 
   ThreadPool& pool_;
+  const std::vector<std::unique_ptr<ElasticGrid>> coarser_;
   std::vector<std::unique_ptr<Level>> levels_;
-  std::unique_ptr<Coarsest> coarsest_;
+  std::unique_ptr<DirectSolution> coarsest_;
 };
 
 }  // namespace ream::solve

@@ -21,8 +21,6 @@ using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Motion = Eigen::Matrix<double, 3, 6>;  ///< of a point, by shift and turn
 
-/// Places along each edge of a block, at least.
-constexpr int min_block_edge = 4;
 /// Of the direct solution, which takes some seconds then; see cost_of().
 constexpr double max_cost = 3e10;
 constexpr double max_aggregates = 40000.0;
@@ -218,9 +216,9 @@ Eigen::SparseMatrix<double> sparse(const Blocks& blocks, size_t aggregates) {
 }  // namespace
 
 struct RigidAggregates::Parts {
-  Parts(const ElasticGrid& given, double poisson, const Progress& progress) : grid(given) {
-    int edge = min_block_edge;
+  Parts(const ElasticGrid& given, double poisson, int edge, const Progress& progress) : grid(given) {
     while (const int next = next_edge(edge, poisson, progress)) edge = next;
+    scale = grid.cell_mm() / length_mm;
     list_members();
   }
 
@@ -247,17 +245,20 @@ struct RigidAggregates::Parts {
     return std::max(edge + 1, static_cast<int>(std::ceil(edge * std::pow(cost / max_cost, 1.0 / 4.5))));
   }
 
-  Motion motion(size_t corner) const {
-    const Vec3 from_centre =
-        grid.place_of(corner).cast<double>() - aggregates.centres[aggregates.of_corner[corner]];
-    Motion found = motion_at(from_centre.cwiseProduct(grid.cell_mm()) / length_mm);
-    for (int k = 0; k < 3; ++k)
-      if (grid.is_held(corner, k)) found.row(k).setZero();
-    return found;
+  /// From the aggregate's centre.
+  Vec3 arm(size_t corner) const {
+    const Vec3& centre = aggregates.centres[aggregates.of_corner[corner]];
+    return (grid.place_of(corner).cast<double>() - centre).cwiseProduct(scale);
   }
 
   std::span<const uint32_t> corners_of(size_t aggregate) const {
     return std::span(members).subspan(begins[aggregate], begins[aggregate + 1] - begins[aggregate]);
+  }
+
+  Vec3 but_held(size_t corner, Vec3 values) const {
+    for (int k = 0; k < 3; ++k)
+      if (grid.is_held(corner, k)) values[k] = 0.0;
+    return values;
   }
 
   /// Corners by the aggregate that they belong to.
@@ -266,7 +267,7 @@ struct RigidAggregates::Parts {
     for (const uint32_t aggregate : aggregates.of_corner) ++begins[aggregate + 1];
     std::partial_sum(begins.begin(), begins.end(), begins.begin());
     members.resize(aggregates.of_corner.size());
-    std::vector<size_t> next(begins.begin(), begins.end() - 1);
+    std::vector<uint32_t> next(begins.begin(), begins.end() - 1);
     for (size_t corner = 0; corner < members.size(); ++corner)
       members[next[aggregates.of_corner[corner]]++] = static_cast<uint32_t>(corner);
   }
@@ -274,42 +275,57 @@ struct RigidAggregates::Parts {
   const ElasticGrid& grid;
   Aggregates aggregates;
   std::vector<uint32_t> members;
-  std::vector<size_t> begins;  ///< in members, of each aggregate, and the end
+  std::vector<uint32_t> begins;  ///< in members, of each aggregate, and the end
   double length_mm = 1.0;
+  Vec3 scale = Vec3::Ones();  ///< of arms: cells in lengths
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors;
 };
 
-RigidAggregates::RigidAggregates(const ElasticGrid& grid, double poisson, const Progress& progress)
-    : parts_(std::make_unique<Parts>(grid, poisson, progress)) {}
+RigidAggregates::RigidAggregates(const ElasticGrid& grid, double poisson, int min_edge,
+                                 const Progress& progress)
+    : parts_(std::make_unique<Parts>(grid, poisson, min_edge, progress)) {}
 
 RigidAggregates::~RigidAggregates() = default;
 
 void RigidAggregates::add_correction(std::span<const double> residual, std::span<double> correction,
                                      ThreadPool& pool) const {
   const Parts& parts = *parts_;
-  Eigen::VectorXd forces(static_cast<Eigen::Index>(6 * count()));
+  std::vector<double> motions(6 * count());
   for_parts(
       pool, count(),
       [&](size_t begin, size_t end) {
         for (size_t aggregate = begin; aggregate < end; ++aggregate) {
-          Vec6 sum = Vec6::Zero();
-          for (const size_t corner : parts.corners_of(aggregate))
-            sum += parts.motion(corner).transpose() *
-                   Vec3(residual[3 * corner], residual[3 * corner + 1], residual[3 * corner + 2]);
-          forces.segment<6>(6 * static_cast<Eigen::Index>(aggregate)) = sum;
+          Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+          for (const size_t corner : parts.corners_of(aggregate)) {
+            const Vec3 arm = parts.arm(corner), f = parts.but_held(corner, Vec3(&residual[3 * corner]));
+            force += f;
+            moment += arm.cross(f);
+          }
+          std::copy_n(force.data(), 3, &motions[6 * aggregate]);
+          std::copy_n(moment.data(), 3, &motions[6 * aggregate + 3]);
         }
       },
       aggregates_in_part);
-  const Eigen::VectorXd motions = parts.factors.solve(forces);
+  balance(motions);
   pool.run(static_cast<size_t>(parts.grid.dims().z()) + 1, [&](size_t layer, int) {
     const auto corners = parts.grid.layer_corners();
     for (size_t corner = corners[layer]; corner < corners[layer + 1]; ++corner) {
-      const Vec3 moved_by =
-          parts.motion(corner) *
-          motions.segment<6>(6 * static_cast<Eigen::Index>(parts.aggregates.of_corner[corner]));
+      const double* motion = &motions[6 * size_t{parts.aggregates.of_corner[corner]}];
+      const Vec3 shift(motion), turn(motion + 3);
+      const Vec3 moved_by = parts.but_held(corner, shift + turn.cross(parts.arm(corner)));
       for (int k = 0; k < 3; ++k) correction[3 * corner + static_cast<size_t>(k)] += moved_by[k];
     }
   });
+}
+
+void RigidAggregates::balance(std::span<double> motions) const {
+  Eigen::Map<Eigen::VectorXd> numbers(motions.data(), static_cast<Eigen::Index>(motions.size()));
+  numbers = parts_->factors.solve(numbers).eval();
+}
+
+RigidAggregates::Lists RigidAggregates::lists() const {
+  return {parts_->members, parts_->begins, parts_->aggregates.of_corner, parts_->aggregates.centres,
+          parts_->scale};
 }
 
 size_t RigidAggregates::count() const { return parts_->aggregates.centres.size(); }

@@ -16,7 +16,9 @@ namespace ream::solve {
 class RigidAggregates {
  public:
   /// `grid` must outlive this. Errors: unavailable; what `progress` throws.
-  RigidAggregates(const ElasticGrid& grid, double poisson, const Progress& progress = no_progress);
+  /// `min_edge`: places of the lattice along each edge of a block, at least.
+  RigidAggregates(const ElasticGrid& grid, double poisson, int min_edge = 4,
+                  const Progress& progress = no_progress);
   ~RigidAggregates();
   RigidAggregates(const RigidAggregates&) = delete;
   RigidAggregates& operator=(const RigidAggregates&) = delete;
@@ -25,6 +27,17 @@ class RigidAggregates {
   void add_correction(std::span<const double> residual, std::span<double> correction, ThreadPool& pool) const;
 
   size_t count() const;
+  /// Forces on each aggregate and moments about its centre, 6 count(), become the motions that balance them.
+  void balance(std::span<double> motions) const;
+
+  /// For a device. Valid while this is.
+  struct Lists {
+    /// Corners by aggregate, and where those of each begin; the aggregate of each corner.
+    std::span<const uint32_t> members, begins, of_corner;
+    std::span<const Vec3> centres;  ///< on the lattice
+    Vec3 scale;                     ///< of a corner's place beside its centre: moments are of arms so scaled
+  };
+  Lists lists() const;
 
  private:
   struct Parts;

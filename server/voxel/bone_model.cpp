@@ -40,7 +40,7 @@ size_t BoneModel::filled_voxels() const {
 
 uint64_t BoneModel::coverage_hash() const {
   uint64_t sum = 0;
-  for (size_t i = 0; i < coverage.size(); ++i)
+  for (uint64_t i = 0; i < coverage.size(); ++i)  // 64 bits in a browser, too
     if (coverage[i] != 0) sum += mix64(i * 256 + coverage[i]);
   return sum;
 }

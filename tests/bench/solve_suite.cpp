@@ -58,10 +58,10 @@ struct Timed {
   double seconds = 0.0;
 };
 
-Timed solved(fe::ElementModel model) {
+Timed solved(fe::ElementModel model, const solve::CompressionRequest& asked = request()) {
   MemoryBudget budget;
   const auto start = SteadyClock::now();
-  Timed timed{solve::compress(std::move(model), request(), budget)};
+  Timed timed{solve::compress(std::move(model), asked, budget)};
   timed.seconds = elapsed_us(start) * 1e-6;
   return timed;
 }
@@ -78,6 +78,45 @@ std::vector<Row> rows_of(const std::string& name, const Timed& timed) {
           {"solve", of + ", iterations", static_cast<double>(timed.result.iterations), 0.0, ""},
           {"solve", of + ", residual", timed.result.relative_residual, 0.0, "", 1e-6},
           {"solve", of + ", peak memory so far", peak_mb(), 0.0, "MB", memory_goal_mb}};
+}
+
+/// A graphics processor where there is one.
+gpu::Device bench_device() {
+  for (const gpu::Device& device : gpu::list_devices())
+    if (!device.is_cpu) return device;
+  return gpu::choose_device("auto", gpu::Use::bulk);
+}
+
+/// What a device is given to do in so many iterations, and before them.
+gpu::Traffic traffic_of(const gpu::Queue& queue, int edge, int iterations) {
+  solve::CompressionRequest asked = request();
+  asked.limits = {.tolerance = 1e-30, .max_iterations = iterations, .queue = &queue};
+  const gpu::Traffic before = queue.traffic();
+  solved(foam(edge), asked);
+  const gpu::Traffic& after = queue.traffic();
+  return {after.launches - before.launches, after.bytes_to_device - before.bytes_to_device,
+          after.bytes_from_device - before.bytes_from_device};
+}
+
+/// The same foam on the processor and on a device, and what goes there and back.
+std::vector<Row> beside_opencl(int edge) {
+  const gpu::Queue queue(bench_device());
+  solve::CompressionRequest asked = request();
+  const Timed ours = solved(foam(edge), asked);
+  asked.limits.queue = &queue;
+  const Timed theirs = solved(foam(edge), asked);
+  const gpu::Traffic few = traffic_of(queue, edge, 2), more = traffic_of(queue, edge, 6);
+  const auto of_iteration = [](uint64_t a, uint64_t b) { return static_cast<double>(b - a) / 4.0; };
+  const double there = of_iteration(few.bytes_to_device, more.bytes_to_device),
+               back = of_iteration(few.bytes_from_device, more.bytes_from_device);
+  const std::string of =
+      "foam of " + std::to_string(ours.result.elements) + " elements, " + queue.device().name;
+  return {{"solve", of, theirs.seconds, ours.seconds, "s"},
+          {"solve", of + ": times as long as the processor", theirs.seconds / ours.seconds, 0.0, ""},
+          {"solve", of + ": launches an iteration", of_iteration(few.launches, more.launches), 0.0, ""},
+          {"solve", of + ": put there before",
+           (static_cast<double>(few.bytes_to_device) - 2.0 * there) * 1e-6, 0.0, "MB"},
+          {"solve", of + ": there and back an iteration", (there + back) * 1e-6, 0.0, "MB"}};
 }
 
 /// The same elements by CalculiX's direct solver on two threads; nothing where it is not installed.
@@ -107,6 +146,7 @@ std::vector<Row> beside_calculix(int edge) {
 std::vector<Row> solve_suite(const Options& options) {
   std::vector<Row> rows = rows_of("block", solved(block(126)));
   for (const Row& row : rows_of("foam", solved(foam(212)))) rows.push_back(row);
+  for (const Row& row : beside_opencl(80)) rows.push_back(row);
   if (options.baselines)
     for (const Row& row : beside_calculix(40)) rows.push_back(row);
   return rows;

@@ -39,49 +39,51 @@ async function takeOff(page: Page): Promise<void> {
   await expect(page.getByTestId('headset')).toHaveText('Headset');
 }
 
-test('the live bone is seen in a headset, grabbed and made larger, and the page goes on afterwards', async ({
-  page,
-}, info) => {
-  await withHeadset(page);
-  await page.goto(here.server.url);
-  await untilLive(page);
-  await page.getByTestId('headset').click();
-  await expect(page.getByTestId('headset')).toHaveText('End headset');
-  await untilDrawnMore(page);
-  const worn = await bone(page);
-  await page.screenshot({ path: info.outputPath('worn.png') });
+test(
+  'the live bone is seen in a headset, grabbed and made larger, and the page goes on afterwards',
+  { tag: '@full' },
+  async ({ page }, info) => {
+    await withHeadset(page);
+    await page.goto(here.server.url);
+    await untilLive(page);
+    await page.getByTestId('headset').click();
+    await expect(page.getByTestId('headset')).toHaveText('End headset');
+    await untilDrawnMore(page);
+    const worn = await bone(page);
+    await page.screenshot({ path: info.outputPath('worn.png') });
 
-  // A step aside shows another side of it.
-  await page.evaluate(() => (window as unknown as Emulated).worn?.position.set(0.2, 1.6, 0));
-  await untilDrawnMore(page);
-  const aside = await bone(page);
-  expect((await compare(page, aside, worn)).changed).toBeGreaterThan(2000);
+    // A step aside shows another side of it.
+    await page.evaluate(() => (window as unknown as Emulated).worn?.position.set(0.2, 1.6, 0));
+    await untilDrawnMore(page);
+    const aside = await bone(page);
+    expect((await compare(page, aside, worn)).changed).toBeGreaterThan(2000);
 
-  // The trigger grabs it: it goes where the hand goes.
-  await page.evaluate(() => {
-    const hand = (window as unknown as Emulated).worn?.controllers.right;
-    hand?.updateButtonValue('trigger', 1);
-  });
-  await untilDrawnMore(page);
-  await page.evaluate(() => {
-    const hand = (window as unknown as Emulated).worn?.controllers.right;
-    hand?.position.set(0.05, 1.7, -0.4);
-  });
-  await untilDrawnMore(page);
-  await page.evaluate(() => (window as unknown as Emulated).worn?.controllers.right?.updateButtonValue('trigger', 0));
-  const carried = await bone(page);
-  expect((await compare(page, carried, aside)).changed).toBeGreaterThan(2000);
-  await page.screenshot({ path: info.outputPath('carried.png') });
+    // The trigger grabs it: it goes where the hand goes.
+    await page.evaluate(() => {
+      const hand = (window as unknown as Emulated).worn?.controllers.right;
+      hand?.updateButtonValue('trigger', 1);
+    });
+    await untilDrawnMore(page);
+    await page.evaluate(() => {
+      const hand = (window as unknown as Emulated).worn?.controllers.right;
+      hand?.position.set(0.05, 1.7, -0.4);
+    });
+    await untilDrawnMore(page);
+    await page.evaluate(() => (window as unknown as Emulated).worn?.controllers.right?.updateButtonValue('trigger', 0));
+    const carried = await bone(page);
+    expect((await compare(page, carried, aside)).changed).toBeGreaterThan(2000);
+    await page.screenshot({ path: info.outputPath('carried.png') });
 
-  // What is not of this moment says so, also to who sees nothing else.
-  await here.server.kill();
-  await expect(page.getByTestId('picture')).toHaveAttribute('data-stale', 'true');
-  await untilDrawnMore(page);
-  await page.screenshot({ path: info.outputPath('not-live.png') });
-  await takeOff(page);
-  await here.server.start();
-  await untilLive(page);
-});
+    // What is not of this moment says so, also to who sees nothing else.
+    await here.server.kill();
+    await expect(page.getByTestId('picture')).toHaveAttribute('data-stale', 'true');
+    await untilDrawnMore(page);
+    await page.screenshot({ path: info.outputPath('not-live.png') });
+    await takeOff(page);
+    await here.server.start();
+    await untilLive(page);
+  },
+);
 
 test('a recorded session is seen in a headset', { tag: '@full' }, async ({ page }, info) => {
   await withHeadset(page);

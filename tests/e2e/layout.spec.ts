@@ -2,6 +2,7 @@
 import { expect, type Page, test } from '@playwright/test';
 
 import { assignSession, olga, tom } from './every_page';
+import { fullTests } from './full_tests';
 import { misplaced } from './misplaced';
 import { post, remove, startDemo, untilFinished } from './rest_as_page';
 import { logIn, serverForEachTest } from './server_for_each_test';
@@ -10,12 +11,11 @@ import { settled } from './settled';
 test.use({ actionTimeout: 30_000 });
 const here = serverForEachTest([olga, tom]);
 
-const sizes = [
+const phoneAndDesk = [
   [390, 844],
-  [768, 1024],
   [1440, 900],
-  [1920, 1080],
 ] as const;
+const sizes = fullTests ? ([...phoneAndDesk, [768, 1024], [1920, 1080]] as const) : phoneAndDesk;
 
 /** Something on every page: a session that ended, one that was deleted, a study. */
 async function fill(page: Page): Promise<string> {

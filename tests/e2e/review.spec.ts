@@ -171,6 +171,14 @@ test('a session is gone through, mapped, measured, judged and taken home', async
     expect((await download).suggestedFilename()).toContain(ending);
   }
 
+  // The bone once more, from what was recorded.
+  await page.getByTestId('verify').click();
+  await expect(page.getByTestId('verification-result')).toContainText('leave exactly the recorded bone', {
+    timeout: 90_000,
+  });
+  await page.getByTestId('verification').scrollIntoViewIfNeeded();
+  await page.screenshot({ path: info.outputPath('verified.png') });
+
   // Sections and slices of the live page.
   await page.getByTestId('map-none').click();
   await page.keyboard.press('t');

@@ -102,6 +102,16 @@ def recording() -> list[bytes]:
     return [b"\x00" + (GOLDEN / "recording-2.ream").read_bytes()]
 
 
+def causes() -> list[bytes]:
+    # A brick of bone; a tick whose pose is above it and cuts, column by column, plane by plane.
+    start = b"\x01" + struct.pack("<3I3dQ", 8, 8, 8, 0.25, 0.25, 0.25, 0) + b"\x01"
+    words = [16 | 8 | 1, 1 << 30, 0, 0, 0, 1 << 30, 0, 0, 0, 1 << 30, 4_000_000, 3_000_000, 2_000_000]
+    planes = b"".join(word.to_bytes(4, "big") for word in words)
+    ticks = b"\x03" + struct.pack("<2IQ", 0, 1, 0) + bytes(len(words)) + planes
+    end = b"\x04" + struct.pack("<IQI", 0, 0, 0)
+    return [b"\x00" + piece(start), b"\x01" + piece(end), b"\x02" + piece(ticks) + piece(end)]
+
+
 def backup() -> list[bytes]:
     user = '["id","name","display_name","role","enabled","created_utc","password_hash"]'
     row = '["u1","tom","Tom","trainee",1,"2026-01-01T00:00:00Z","x"]'
@@ -141,7 +151,7 @@ def bundle() -> list[bytes]:
 
 
 def main() -> None:
-    for make in (http, headers, device_messages, websocket, json, recording, backup, bundle, *file_seeds.ALL):
+    for make in (http, headers, device_messages, websocket, json, recording, causes, backup, bundle, *file_seeds.ALL):
         folder = Path(sys.argv[1]) / make.__name__
         folder.mkdir(parents=True, exist_ok=True)
         for number, seed in enumerate(make(), 1):

@@ -1,9 +1,7 @@
 import asyncio
 import contextlib
 import inspect
-import json
 import re
-import signal
 import socket
 import subprocess
 import threading
@@ -12,9 +10,10 @@ import unittest
 
 import ream
 import yaml
-from places import PROGRAM, ROOT, DataFolder
+from places import ROOT
 from ream._operations import Operations
 from ream.client import Client, ClientError
+from served import ServedFolder
 
 CONTRACT = yaml.safe_load((ROOT / "proto/openapi.yaml").read_text())
 OPERATIONS = {
@@ -31,27 +30,7 @@ def method_name(operation_id: str) -> str:
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", operation_id).lower()
 
 
-class ClientTest(DataFolder):
-    @classmethod
-    def setUpClass(cls) -> None:
-        super().setUpClass()
-        add = [str(PROGRAM), "user", "add", "anna", "--display-name", "Anna", "--data", cls.data]
-        subprocess.run(add, input="a long password\n", text=True, check=True, capture_output=True)
-        cls.token = cls.ream("user", "token", "anna", "--for", "tests", "--data", cls.data).strip()
-        words = ["serve", "--port", "0", "--data", cls.data, "--json"]
-        log = (cls.folder / "serve.log").open("w")
-        cls.addClassCleanup(log.close)
-        cls.server = subprocess.Popen([str(PROGRAM), *words], stdout=subprocess.PIPE, stderr=log, text=True)
-        cls.addClassCleanup(cls.stop)
-        cls.url = json.loads(cls.server.stdout.readline())["url"]
-        cls.client = Client(cls.url, cls.token)
-        cls.client.wait_until_ready()
-
-    @classmethod
-    def stop(cls) -> None:
-        cls.server.send_signal(signal.SIGTERM)
-        cls.server.communicate(timeout=60)
-
+class ClientTest(ServedFolder):
     def stopped_session(self) -> str:
         """The id of a session in which the demo's hand has reamed for a moment."""
         session = self.client.create_session({"case": "demo", "title": "By a program"})

@@ -51,13 +51,16 @@ class DatasetTest(DataFolder):
     def test_goes_on_where_it_was_stopped(self) -> None:
         folder = self.folder / "stopped"
         process = subprocess.Popen(self.command(folder, "--count", 40, "--jobs", 2), stderr=subprocess.PIPE, text=True)
-        while not list(folder.glob("reaming-*.h5")):
+        while not (before := list(folder.glob("reaming-*.h5"))):
             self.assertIsNone(process.poll())
             time.sleep(0.02)
         process.send_signal(signal.SIGINT)
         said = process.communicate(timeout=60)[1]
         self.assertEqual(process.returncode, 130)
         self.assertIn("the same command goes on", said)
+        self.assertNotIn("Traceback", said)
+        # In the middle of a reaming, but each process may have been about to write one.
+        self.assertLessEqual(len(list(folder.glob("reaming-*.h5"))), len(before) + 2)
         # As after the death of a process that nobody could warn.
         (folder / "reaming-000001.h5.123.tmp").write_text("left by a crash")
         there = {path.name: path.stat().st_mtime_ns for path in folder.glob("reaming-*.h5")}
@@ -68,6 +71,15 @@ class DatasetTest(DataFolder):
             name = f"reaming-00000{index}.h5"
             self.assertEqual((folder / name).read_bytes(), (self.made / name).read_bytes())
         self.assertFalse(list(folder.glob("*.tmp")))
+
+    def test_a_folder_that_is_refused_is_left_as_it_was(self) -> None:
+        folder = self.folder / "of_somebody"
+        folder.mkdir()
+        for name in ("notes.tmp", "reaming-000001.h5.123.tmp", "a.txt"):
+            (folder / name).write_text("precious")
+        with self.assertRaisesRegex(ream.Error, "something else in it"):
+            make_dataset(folder, 1, SMALL)
+        self.assertEqual(sorted(path.name for path in folder.iterdir()), ["a.txt", "notes.tmp", "reaming-000001.h5.123.tmp"])
 
     def test_two_do_not_share_a_folder_and_none_stays_behind(self) -> None:
         folder = self.folder / "shared"

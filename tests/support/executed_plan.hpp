@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/clock.hpp"
+#include "score/alignment.hpp"
 #include "score/bone_results.hpp"
 #include "score/metrics.hpp"
 #include "support/random_reaming.hpp"
@@ -41,6 +42,17 @@ class ExecutedPlan {
   }
 
   const score::NativeGlenoid& native() const { return native_; }
+  const voxel::BoneModel& bone() const { return bone_; }
+
+  /// What such a session leaves, and its axis in the frame of the lattice.
+  struct Left {
+    std::vector<uint8_t> coverage;
+    score::CutLine line;
+  };
+  Left left(const Stray& stray) const {
+    const Pose end = end_of(stray);
+    return {left_by(end), score::in_lattice(native_.rays(), *ticks_to(end, stray).cut_line(), plan_pose())};
+  }
 
   /// metrics.json of one that ended before anything was touched.
   nlohmann::json untouched() const {

@@ -39,6 +39,7 @@ void add_render_command(CLI::App& app, GlobalOptions& options);
 void add_list_command(CLI::App& app, GlobalOptions& options);
 void add_replay_command(CLI::App& app, GlobalOptions& options);
 void add_devices_command(CLI::App& app, GlobalOptions& options);
+void add_plugin_command(CLI::App& app, GlobalOptions& options);
 void add_audit_command(CLI::App& app, GlobalOptions& options);
 void add_user_command(CLI::App& app, GlobalOptions& options);
 void add_backup_command(CLI::App& app, GlobalOptions& options);

@@ -10,6 +10,7 @@
 #include "app/cli/commands.hpp"
 #include "app/device_trial.hpp"
 #include "app/handle_reader.hpp"
+#include "app/plugin_option.hpp"
 #include "app/setup_wizard.hpp"
 #include "app/standalone_device_server.hpp"
 #include "core/data_folder.hpp"
@@ -25,6 +26,7 @@ struct DevicesOptions {
   std::string test, setup, profile, axes, hand;
   std::optional<double> scale;
   uint16_t port = 0;
+  std::vector<std::filesystem::path> plugins;
 };
 
 void list_devices(const GlobalOptions& global) {
@@ -191,7 +193,9 @@ void add_devices_command(CLI::App& app, GlobalOptions& global) {
       ->check(CLI::IsMember({"left", "right"}))
       ->needs(setup);
   test->excludes(setup);
+  add_plugin_option(*command, options->plugins);
   command->callback([options, &global] {
+    use_plugins(options->plugins);
     if (!options->test.empty())
       test_device(*options, global);
     else if (!options->setup.empty())

@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 
 struct ExportOptions {
   std::string session, case_name, format, rubric, benchmark;
+  bool component_load = false;
   fs::path out;
 };
 
@@ -31,15 +32,17 @@ session::ExportRequest request_of(const ExportOptions& options, const fs::path& 
   request.data = data;
   if (!options.rubric.empty())
     request.rubric = score::find_rubric(options.rubric, score::RubricStore(rubrics_folder(data)));
+  request.component_load = options.component_load;
   if (!options.benchmark.empty()) request.benchmark = score::load_benchmark(options.benchmark);
   return request;
 }
 
 void export_session(const ExportOptions& options, const GlobalOptions& global) {
   const session::ExportFormat& format = session::export_format_of(options.format, options.out);
-  if (format.kind != session::ExportKind::report && !(options.rubric.empty() && options.benchmark.empty()))
-    throw Error(ErrorKind::usage,
-                "--rubric and --benchmark are for reports, and " + options.out.string() + " will be none");
+  if (format.kind != session::ExportKind::report &&
+      (options.component_load || !(options.rubric.empty() && options.benchmark.empty())))
+    throw Error(ErrorKind::usage, "--rubric, --benchmark and --component-load are for reports, and " +
+                                      options.out.string() + " will be none");
   catch_interrupts();
   remove_leftovers_beside(options.out);
   const fs::path data = data_folder(global.data);
@@ -84,6 +87,8 @@ void add_export_command(CLI::App& app, GlobalOptions& global) {
   command->add_option("--rubric", options->rubric, "Of reports: a rubric's id, id@version, or its file");
   command->add_option("--benchmark", options->benchmark,
                       "Of reports: file of ream benchmark to compare with");
+  command->add_flag("--component-load", options->component_load,
+                    "Of reports: with a page of a component under load, which takes half a minute");
   command->callback([options, &global] { export_session(*options, global); });
 }
 

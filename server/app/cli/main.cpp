@@ -51,6 +51,7 @@ void add_commands(CLI::App& app, ream::app::GlobalOptions& global) {
   add_list_command(app, global);
   add_replay_command(app, global);
   add_devices_command(app, global);
+  add_plugin_command(app, global);
   add_audit_command(app, global);
   add_user_command(app, global);
   add_backup_command(app, global);

@@ -71,6 +71,12 @@ void print_score(const std::string& session, const json& document) {
   const std::vector<report::Advice> advice = report::advice_of(score, document.at("metrics"));
   if (!advice.empty()) std::cout << "  next time:\n";
   for (const report::Advice& each : advice) std::cout << "    " << each.words << '\n';
+  if (const json own = document.value("plugin_score", json()); !own.is_null()) {
+    std::cout << "  by " << own.at("plugin").at("name").get<std::string>() << ' '
+              << own.at("plugin").at("version").get<std::string>() << ": "
+              << outcome_in_words(own.at("outcome")) << ", " << points_in_words(own.at("points")) << '\n';
+    for (const json& line : own.at("lines")) std::cout << "    " << line.get<std::string>() << '\n';
+  }
   print_metrics(document.at("metrics"), score);
   print_missing(document.at("metrics"));
   if (const json& benchmark = document.at("benchmark"); !benchmark.is_null())

@@ -8,6 +8,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/terminal_progress.hpp"
 #include "app/open_database.hpp"
+#include "app/plugin_option.hpp"
 #include "core/clock.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
@@ -29,6 +30,7 @@ struct ReplayOptions {
   bool verify = false;
   std::string backend = "cpu";
   double until_s = -1.0;
+  std::vector<std::filesystem::path> plugins;
 };
 
 uint32_t until_tick(const ReplayOptions& options) {
@@ -153,7 +155,11 @@ void add_replay_command(CLI::App& app, GlobalOptions& global) {
       ->check(CLI::Range(0.0, 1.0e6));
   command->add_option("--case", options->case_name,
                       "Where the recorded case is, if not in the data folder: its id or folder");
-  command->callback([options, &global] { replay(*options, global); });
+  add_plugin_option(*command, options->plugins);
+  command->callback([options, &global] {
+    use_plugins(options->plugins);
+    replay(*options, global);
+  });
 }
 
 }  // namespace ream::app

@@ -7,12 +7,14 @@
 #include "app/cli/print_score.hpp"
 #include "app/cli/terminal_progress.hpp"
 #include "app/open_database.hpp"
+#include "app/plugin_option.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/interrupt.hpp"
 #include "core/log.hpp"
 #include "core/version.hpp"
+#include "score/plugin_score.hpp"
 #include "score/rubric_store.hpp"
 #include "session/export/session_report.hpp"
 #include "session/folder/session_folder.hpp"
@@ -32,6 +34,7 @@ struct ScoreOptions {
   bool all = false, save = false;
   std::string rubric = "standard", case_name, trainee, benchmark;
   fs::path csv;
+  std::vector<fs::path> plugins;
   score::CusumParameters cusum;
 };
 
@@ -80,6 +83,9 @@ Judged judged(const session::Rescored& one, const ScoreOptions& options, const s
   Judged result;
   result.table = {one.name, session::description_of(record::Recording(recording)), one.metrics};
   result.document = session::score_document(version_text(), result.table.session, one.metrics, judge);
+  if (const fs::path before = session::score_json(recording.parent_path());
+      options.save && fs::exists(before))
+    score::require_same_plugin(read_json_file(before));
   if (options.save) write_json_file(session::score_json(recording.parent_path()), result.document);
   return result;
 }
@@ -179,7 +185,11 @@ void add_score_command(CLI::App& app, GlobalOptions& global) {
                       "CUSUM: chance of calling the proficient not so, 0.1 by default");
   command->add_option("--beta", options->cusum.beta,
                       "CUSUM: chance of calling the others proficient, 0.1 by default");
-  command->callback([options, &global] { score_sessions(*options, global); });
+  add_plugin_option(*command, options->plugins);
+  command->callback([options, &global] {
+    use_plugins(options->plugins);
+    score_sessions(*options, global);
+  });
 }
 
 }  // namespace ream::app

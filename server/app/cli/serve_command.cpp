@@ -12,6 +12,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/serve_options.hpp"
 #include "app/open_database.hpp"
+#include "app/plugin_option.hpp"
 #include "app/server_address.hpp"
 #include "core/clock.hpp"
 #include "core/data_folder.hpp"
@@ -22,6 +23,7 @@
 #include "core/leftovers.hpp"
 #include "core/log.hpp"
 #include "core/version.hpp"
+#include "device/registry/device_registry.hpp"
 #include "isolation/sandbox.hpp"
 #include "openigtlink/server.hpp"
 #include "session/live/session_recovery.hpp"
@@ -83,8 +85,19 @@ void log_sandbox() {
     log::warn(words);
 }
 
+/// What is wrong with them is wrong with the settings, and does not mend itself.
+void use_devices_and_models(const ServeOptions& options) {
+  try {
+    for (const plugin::Plugin& plugin : use_plugins(options.plugins)) log::info(plugin::in_words(plugin));
+    device::device_kind(options.device);
+  } catch (const Error& e) {
+    throw Error(ErrorKind::usage, e.what());
+  }
+}
+
 void serve(const ServeOptions& options, const GlobalOptions& global) {
   log::set_format(log_format_from_text(options.log_format));
+  use_devices_and_models(options);
   session::SessionContext context;
   context.data = data_folder(global.data);
   context.server_epoch = static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::microseconds>(

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/plugin_option.hpp"
 #include "core/error.hpp"
 #include "device/registry/device_registry.hpp"
 
@@ -10,9 +11,10 @@ namespace {
 
 constexpr int max_days = 36500, max_minutes = 7 * 24 * 60;
 
-std::vector<std::string> device_names() {
-  std::vector<std::string> names;
-  for (const device::DeviceKind& kind : device::device_kinds()) names.push_back(kind.name);
+std::string device_names() {
+  std::string names;
+  for (const device::DeviceKind& kind : device::device_kinds())
+    names += (names.empty() ? "" : ", ") + kind.name;
   return names;
 }
 
@@ -51,9 +53,11 @@ void add_serve_options(CLI::App& command, ServeOptions& options) {
                      "[HOST:]PORT where 3D Slicer and others can watch the newest session; HOST as --host");
   command.add_option("--web", options.web, "Folder of the built page");
   command.add_option("--backend", options.backend, "auto, cpu, opencl or opencl:N")->capture_default_str();
-  command.add_option("--device", options.device, "Device of sessions that name none")
-      ->check(CLI::IsMember(device_names()))
+  command
+      .add_option("--device", options.device,
+                  "Device of sessions that name none: " + device_names() + ", or a plug-in's")
       ->capture_default_str();
+  add_plugin_option(command, options.plugins);
   command.add_option("--realtime", options.realtime, "Real-time priority of the haptic loop")
       ->check(CLI::IsMember({"require", "try", "off"}))
       ->capture_default_str();

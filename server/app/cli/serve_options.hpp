@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/server_address.hpp"
 
@@ -20,6 +21,7 @@ struct ServeOptions {
   std::optional<int> keep_sessions_days;
   int keep_deleted_days = 30, end_unstarted_minutes = 10, end_paused_minutes = 30;
   int delete_at_once_percent = 50;
+  std::vector<std::filesystem::path> plugins;
 };
 
 /// Folder of the built page: `chosen` (--web), else share/ream/web of the place where the program is

@@ -7,6 +7,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/terminal_progress.hpp"
 #include "app/numbers.hpp"
+#include "app/plugin_option.hpp"
 #include "core/atomic_file.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
@@ -30,6 +31,7 @@ struct SimulateOptions {
   double force_scale = 0.0;
   fs::path out;
   bool wall_clock = false;
+  std::vector<fs::path> plugins;
 };
 
 std::string feed_models_help() {
@@ -148,7 +150,14 @@ void add_simulate_command(CLI::App& app, GlobalOptions& global) {
       ->check(CLI::Range(0.01, 1000.0));
   command->add_option("--random-seed", options->request.random_seed, "Seed of everything random")
       ->capture_default_str();
-  command->callback([options, &global] { simulate(*options, global); });
+  add_plugin_option(*command, options->plugins);
+  command->callback([options, &global] {
+    use_plugins(options->plugins);
+    if (const auto plugin = force::offered_feed_model(); plugin && !options->request.feed_model.empty())
+      throw Error(ErrorKind::usage, "--model " + options->request.feed_model + " and " + plugin->in_words() +
+                                        " both give a feed model; give one of them");
+    simulate(*options, global);
+  });
 }
 
 }  // namespace ream::app

@@ -14,6 +14,9 @@
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/log.hpp"
+#include "session/export/export_formats.hpp"
+#include "session/load/component_load.hpp"
+#include "session/simulation/recorded_session.hpp"
 #include "solve/bone_compression.hpp"
 
 namespace ream::app {
@@ -26,7 +29,28 @@ struct SolveOptions {
   double strain_percent = 1.0;
   int upsample = 1;
   solve::CompressionRequest request;
+  std::string backend = "auto";
+  bool component = false;
+  session::ComponentLoadRequest load;
 };
+
+/// Nothing for the processor. `auto` takes a graphics processor alone: on the processor OpenCL takes longer.
+std::optional<gpu::Queue> queue_for(const std::string& backend) {
+  if (backend == "cpu") return std::nullopt;
+  if (backend == "auto") {
+    for (const gpu::Device& device : gpu::list_devices())
+      if (!device.is_cpu && device.knows_doubles && device.keeps_small_floats)
+        return std::make_optional<gpu::Queue>(device);
+    return std::nullopt;
+  }
+  if (!backend.starts_with("opencl"))
+    throw Error(ErrorKind::usage, "--backend '" + backend + "' is not auto, cpu, opencl or opencl:N");
+  return std::make_optional<gpu::Queue>(gpu::choose_device(backend, gpu::Use::bulk));
+}
+
+std::string name_of(const std::optional<gpu::Queue>& queue) {
+  return queue ? "opencl: " + queue->device().name : "cpu";
+}
 
 /// Four digits of it.
 std::string text(double value) {
@@ -35,7 +59,7 @@ std::string text(double value) {
   return written;
 }
 
-void print(const solve::CompressionResult& r, const SolveOptions& options) {
+void print(const solve::CompressionResult& r, const SolveOptions& options, const std::string& backend) {
   std::cout << "apparent modulus " << text(r.modulus_mpa) << " MPa along " << options.axis << ": "
             << text(r.force_n) << " N at " << options.strain_percent << " % of strain\n"
             << r.elements << " elements; bone fills " << text(100.0 * r.bone_share) << " % of a box of "
@@ -50,14 +74,63 @@ void print(const solve::CompressionResult& r, const SolveOptions& options) {
               << " voxels were removed\n";
   if (r.unloaded_elements > 0)
     std::cout << r.unloaded_elements << " voxels do not reach both platens and carry nothing\n";
-  std::cout << r.iterations << " iterations in " << text(r.solve_s)
-            << " s; forces out of balance: " << text(r.unbalanced) << " of the platens'\n";
+  std::cout << r.iterations << " iterations in " << text(r.solve_s) << " s on " << backend
+            << "; forces out of balance: " << text(r.unbalanced) << " of the platens'\n";
+}
+
+std::string strain_text(const std::optional<double>& strain) { return strain ? text(100.0 * *strain) : "-"; }
+
+void print(const session::ComponentLoad& load) {
+  std::cout << "component under " << text(load.request.force_n) << " N, cells of " << load.request.cell_mm
+            << " mm; strains in percent, motions in um\n";
+  std::printf("%-8s %-10s %9s %9s %9s %12s %12s %12s\n", "state", "load", "carrying", "motion", "sinking",
+              "plate strain", "bone strain", "overstrained");
+  for (const session::LoadedState& state : load.states) {
+    for (const session::LoadedSeat& seat : state.loads)
+      std::printf("%-8s %-10s %7.1f %% %9.1f %9.1f %12s %12s %10.1f %%%s\n", state.name.c_str(),
+                  seat.name.c_str(), seat.carrying_percent, seat.motion_um, seat.sinking_um,
+                  strain_text(seat.plate_strain).c_str(), strain_text(seat.bone_strain).c_str(),
+                  seat.overstrained_percent, seat.settled ? "" : "  not settled");
+    std::printf("%-8s supported %.1f %%; a load lifts off up to %.1f %% of that\n", state.name.c_str(),
+                state.supported_percent, state.support_lost_percent);
+  }
+}
+
+void load_seated_component(const SolveOptions& options, const GlobalOptions& global) {
+  catch_interrupts();
+  const TerminalProgress progress;
+  session::ExportRequest source;
+  source.data = data_folder(global.data);
+  source.recording = session::recording_path(options.input, source.data);
+  source.case_name = options.case_name;
+  note_reading(global.db, source.data, "data.mesh", {options.input, options.case_name});
+  session::ComponentLoadRequest request = options.load;
+  fe::ElementModel densities;
+  densities.gray_is_density_g_cc = true;
+  request.law = options.modulus.law_for(densities);
+  request.materials.poisson = options.request.rule.poisson;
+  request.threads = options.request.threads;
+  request.limits.max_iterations = options.request.limits.max_iterations;
+  const std::optional<gpu::Queue> queue = queue_for(options.backend);
+  request.limits.queue = queue ? &*queue : nullptr;
+  const session::ComponentLoad load = session::load_recorded(session::recording_of(source), source.case_name,
+                                                             source.data, request, std::cref(progress))
+                                          .load;
+  if (!load.settled())
+    log::warn("not every load has settled, so these figures are rough; try another --cell-mm");
+  if (global.json)
+    std::cout << to_json(load).dump() << '\n';
+  else
+    print(load);
 }
 
 void solve_bone(const SolveOptions& options, const GlobalOptions& global) {
+  if (options.component) return load_seated_component(options, global);
   catch_interrupts();
   MemoryBudget budget;
   solve::CompressionRequest request = options.request;
+  const std::optional<gpu::Queue> queue = queue_for(options.backend);
+  request.limits.queue = queue ? &*queue : nullptr;
   request.compression = {options.axis[0] - 'x', options.strain_percent / 100.0, options.platens == "fixed"};
   const TerminalProgress progress;
   const std::filesystem::path data = data_folder(global.data);
@@ -73,10 +146,13 @@ void solve_bone(const SolveOptions& options, const GlobalOptions& global) {
     throw Error(ErrorKind::unavailable, "not converged after " + std::to_string(result.iterations) +
                                             " iterations: the residual is " + text(result.relative_residual) +
                                             " of the first; give a larger --max-iterations or --tolerance");
-  if (global.json)
-    std::cout << to_json(result).dump() << '\n';
-  else
-    print(result, options);
+  if (global.json) {
+    nlohmann::json answer = to_json(result);
+    answer["backend"] = name_of(queue);
+    std::cout << answer.dump() << '\n';
+  } else {
+    print(result, options, name_of(queue));
+  }
 }
 
 }  // namespace
@@ -84,7 +160,8 @@ void solve_bone(const SolveOptions& options, const GlobalOptions& global) {
 void add_solve_command(CLI::App& app, GlobalOptions& global) {
   auto options = std::make_shared<SolveOptions>();
   CLI::App* command = app.add_subcommand(
-      "solve", "Compress bone between two platens, each voxel an element: apparent modulus");
+      "solve",
+      "Compress bone between two platens, or load a component on a reamed glenoid, by finite elements");
   command
       ->add_option(
           "INPUT", options->input,
@@ -117,8 +194,24 @@ void add_solve_command(CLI::App& app, GlobalOptions& global) {
   command->add_option("--threads", options->request.threads, "The result is the same with any number")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
+  command->add_option("--backend", options->backend, "auto, cpu, opencl or opencl:N; the result is the same")
+      ->capture_default_str();
   command->add_option("--case", options->case_name,
                       "Case folder of a session, where it is not in the data folder");
+  command->add_flag("--component", options->component,
+                    "Of a session: load a component on the glenoid instead, before and after reaming");
+  CLI::Option* component = command->get_option("--component");
+  for (const char* other : {"--axis", "--strain-percent", "--platens", "--threshold", "--upsample",
+                            "--keep-islands", "--tolerance"})
+    component->excludes(command->get_option(other));
+  command->add_option("--force-n", options->load.force_n, "On the component")
+      ->needs(component)
+      ->check(CLI::Range(1.0, 10000.0))
+      ->capture_default_str();
+  command->add_option("--cell-mm", options->load.cell_mm, "Elements under the component")
+      ->needs(component)
+      ->check(CLI::Range(0.3, 2.0))
+      ->capture_default_str();
   command->callback([options, &global] { solve_bone(*options, global); });
 }
 

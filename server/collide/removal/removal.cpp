@@ -16,6 +16,13 @@ constexpr double max_steps = 32767.0;
 using voxel::brick_edge;
 using voxel::brick_voxels;
 
+/// The least power of two that is no less; exact, so the same by every mathematics library.
+double power_of_two_from(double x) {
+  int exponent = 0;
+  const double half_to_one = std::frexp(x, &exponent);
+  return std::ldexp(1.0, half_to_one == 0.5 ? exponent - 1 : exponent);
+}
+
 /// What a brick has left, and how far it is from losing more. The least slack is kept in lanes, because a
 /// single running minimum of floats does not vectorize.
 REAM_VECTOR_CLONES float compare_brick(const float* __restrict levels, const uint8_t* __restrict coverage,
@@ -96,7 +103,7 @@ ProfileTable profile_table(const shell::SweptProfile& profile, float levels_per_
   table.inverse_r2_step = profile.inverse_r2_step;
   table.r2_limit = static_cast<float>(profile.r2_count) - 1.5f;
   table.z_limit = static_cast<float>(profile.z_count) - 1.5f;
-  const double step_mm = std::exp2(std::ceil(std::log2(profile.margin_mm / max_steps)));
+  const double step_mm = power_of_two_from(profile.margin_mm / max_steps);
   table.levels_per_step = static_cast<float>(static_cast<double>(levels_per_mm) * step_mm);
   const auto steps = [&](size_t i) {
     const double exact = static_cast<double>(profile.distance_mm[i]) / step_mm;

@@ -7,6 +7,7 @@
 
 #include "core/hash.hpp"
 #include "core/units.hpp"
+#include "geometry/ordered_product.hpp"
 #include "voxel/bricks.hpp"
 
 namespace ream::collide {
@@ -28,7 +29,7 @@ RemovalSchedule::RemovalSchedule(const shell::SweptProfile& profile, const voxel
       body_tool_mm_{Vec3(-profile.max_radius_mm, -profile.max_radius_mm, profile.body_min_z_mm),
                     Vec3(profile.max_radius_mm, profile.max_radius_mm, profile.body_max_z_mm)},
       odometer_(body_tool_mm_, bone.grid.min_spacing_mm()),
-      brick_reach_mm_(0.5 * voxel::brick_edge * bone.grid.spacing_mm.norm() +
+      brick_reach_mm_(0.5 * voxel::brick_edge * ordered_norm(bone.grid.spacing_mm) +
                       0.5 * bone.grid.spacing_mm.maxCoeff()),
       near_mm_(brick_reach_mm_ + 2.0 * relist_voxels * bone.grid.spacing_mm.maxCoeff()),
       words_a_row_((bone.grid.brick_dims().x() + word_bits - 1) / word_bits) {
@@ -47,18 +48,18 @@ RemovalSchedule::RemovalSchedule(const shell::SweptProfile& profile, const voxel
 }
 
 double RemovalSchedule::needed_margin_mm(const voxel::VoxelGrid& grid) {
-  return 0.5 * voxel::brick_edge * grid.spacing_mm.norm() + 3.0 * grid.spacing_mm.maxCoeff();
+  return 0.5 * voxel::brick_edge * ordered_norm(grid.spacing_mm) + 3.0 * grid.spacing_mm.maxCoeff();
 }
 
 /// The bricks whose centres lie within near_mm_ of the cylinder around the body fill at most that cylinder,
 /// grown by near_mm_ and half a brick's diagonal.
 size_t RemovalSchedule::max_near_bricks() const {
-  const double grown_mm = near_mm_ + 0.5 * voxel::brick_edge * grid_.spacing_mm.norm();
+  const double grown_mm = near_mm_ + 0.5 * voxel::brick_edge * ordered_norm(grid_.spacing_mm);
   const double radius_mm = profile_.max_radius_mm + grown_mm;
   const double height_mm = profile_.body_max_z_mm - profile_.body_min_z_mm + 2.0 * grown_mm;
   const double bricks =
       pi * radius_mm * radius_mm * height_mm / (grid_.voxel_volume_mm3() * voxel::brick_voxels);
-  return std::min(grid_.brick_count(), static_cast<size_t>(std::ceil(bricks)));
+  return static_cast<size_t>(std::min(static_cast<double>(grid_.brick_count()), std::ceil(bricks)));
 }
 
 float RemovalSchedule::brick_distance_mm(const Vec3i& brick, const GridAffine& a) const noexcept {

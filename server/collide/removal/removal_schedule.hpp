@@ -74,4 +74,18 @@ class RemovalSchedule {
   bool listed_ = false;
 };
 
+/// Cuts what is due at a pose, and tells each brick that has changed. `cut(due)` fills `outcomes`, which has
+/// room for max_bricks_per_tick; where it answers false, so does this, and nothing more is done.
+template <typename Cut, typename Changed>
+bool cut_due(RemovalSchedule& schedule, const QuantisedPose& grid_from_tool,
+             std::span<const BrickOutcome> outcomes, Cut cut, Changed changed) noexcept {
+  const std::span<const uint32_t> due = schedule.due(grid_from_tool);
+  if (!cut(due)) return false;
+  for (size_t i = 0; i < due.size(); ++i) {
+    schedule.cut_done(i, outcomes[i]);
+    if (outcomes[i].changed) changed(due[i]);
+  }
+  return true;
+}
+
 }  // namespace ream::collide

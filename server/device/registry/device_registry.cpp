@@ -105,10 +105,8 @@ DeviceKind plant(const PlantParameters& parameters, const std::string& profile, 
           }};
 }
 
-}  // namespace
-
-const std::vector<DeviceKind>& device_kinds() {
-  static const std::vector<DeviceKind> kinds = [] {
+std::vector<DeviceKind>& known_kinds() {
+  static std::vector<DeviceKind> kinds = [] {
     std::vector<DeviceKind> all{
         scripted(), network(), browser(),
         plant(hapticmaster_plant(), "hapticmaster",
@@ -119,6 +117,18 @@ const std::vector<DeviceKind>& device_kinds() {
     return all;
   }();
   return kinds;
+}
+
+}  // namespace
+
+const std::vector<DeviceKind>& device_kinds() { return known_kinds(); }
+
+void add_device_kind(DeviceKind kind) {
+  for (const DeviceKind& known : known_kinds())
+    if (known.name == kind.name)
+      throw Error(ErrorKind::conflict,
+                  "there is a device '" + kind.name + "' already; give the plug-in's another name");
+  known_kinds().push_back(std::move(kind));
 }
 
 const DeviceKind& device_kind(const std::string& name) {

@@ -50,6 +50,9 @@ struct DeviceKind {
 /// Every kind, in the order in which people are shown them.
 const std::vector<DeviceKind>& device_kinds();
 
+/// One more, of a plug-in. To be called before there are sessions. Error conflict when its name is taken.
+void add_device_kind(DeviceKind kind);
+
 /// What is known of it that its profile says; usable.
 DeviceInfo offer_of(const std::string& name, const std::string& about, const std::string& profile);
 

@@ -1,9 +1,7 @@
 #include "session/export/export_formats.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
@@ -11,51 +9,21 @@
 #include "geometry/scene_export.hpp"
 #include "net/problem.hpp"
 #include "record/recorded_bone.hpp"
-#include "record/trace_csv.hpp"
 #include "report/deviation_scale.hpp"
 #include "report/report.hpp"
 #include "score/deviation.hpp"
 #include "session/export/reamed_bone.hpp"
 #include "session/export/session_bundle.hpp"
 #include "session/export/session_report.hpp"
+#include "session/export/session_tables.hpp"
 #include "session/simulation/find_case.hpp"
 #include "session/simulation/reamed_pictures.hpp"
 #include "session/simulation/recorded_session.hpp"
-#include "session/simulation/recorded_setup.hpp"
-#include "sim/model.hpp"
 
 namespace ream::session {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr uint32_t ticks_between_looks = 10'000;
-
-uint32_t tick_at(double time_s) {
-  return static_cast<uint32_t>(std::clamp(std::ceil(time_s / tick_s - 0.5), 0.0, 4.0e9));
-}
-
-/// One row a tick, as the trace.csv of a run is; the same bytes. Of a part: the rows of every `stride`th tick
-/// from the first one in it, as they stand in the whole.
-void write_trace(const ExportRequest& request, const fs::path& out, const Progress& progress) {
-  const record::Recording recording = recording_of(request);
-  const TracePart& part = request.part;
-  const voxel::VoxelGrid grid = recording.grid();
-  const uint32_t first = tick_at(part.from_s);
-  const uint32_t end = std::min(part.to_s ? tick_at(*part.to_s) : UINT32_MAX, recording.tick_count());
-  record::TraceCsv trace(out, grid.voxel_volume_mm3(),
-                         sim::world_from_plan(recorded_plan(recording)).inverse());
-  recording.for_each_tick(0, end, [&](const record::ops::Tick& tick) {
-    if (tick.tick % ticks_between_looks == 0)
-      progress(static_cast<double>(tick.tick) / std::max(end, 1u), "writing rows");
-    const record::TickReport report = record::report_of(tick, grid.world_from_grid);
-    if (tick.tick >= first && (tick.tick - first) % static_cast<uint32_t>(part.stride) == 0)
-      trace.add(report);
-    else
-      trace.pass(report);
-  });
-  trace.finish();
-}
 
 void write_bundle(const ExportRequest& request, const fs::path& out, const Progress& progress) {
   write_session_bundle(request.recording, request.case_name, request.data, out,
@@ -188,6 +156,9 @@ const std::vector<ExportFormat>& export_formats() {
       {"pdf", ".pdf", "report for printing", "application/pdf", report, write_pdf},
       {"html", ".html", "report as a page", "text/html; charset=utf-8", report, write_html},
       {"csv", ".csv", "one row a tick", "text/csv; charset=utf-8", table, write_trace},
+      {"parquet", ".parquet", "the same with types and units", "application/vnd.apache.parquet", table,
+       write_parquet},
+      {"hdf5", ".h5", "every tick, metrics, score, plan and bone", "application/x-hdf5", local, write_hdf5},
       {"ply", ".ply", "reamed bone and implant, coloured by deviation", "application/ply", plain,
        write_ply_scene},
       {"glb", ".glb", "the same as glTF", "model/gltf-binary", plain, write_glb_scene},
@@ -199,6 +170,8 @@ const std::vector<ExportFormat>& export_formats() {
        write_deviations},
       {"zip", ".zip", "session and case, for ream import on another machine", "application/zip", plain,
        write_bundle},
+      {"causes", ".causes", "what computes the bone again anywhere", "application/octet-stream", plain,
+       write_causes},
   };
   return formats;
 }
@@ -217,7 +190,7 @@ const ExportFormat& export_format_of(const std::string& name, const fs::path& ou
 const ExportFormat& served_export_format(const std::string& name) {
   std::string names;
   for (const ExportFormat& format : export_formats()) {
-    if (format.kind == ExportKind::pair) continue;
+    if (format.kind == ExportKind::pair || format.kind == ExportKind::local) continue;
     if (format.name == name) return format;
     names += (names.empty() ? "" : ", ") + format.name;
   }

@@ -26,6 +26,7 @@ struct ExportOrder {
   TracePart part = {};              ///< of tables
   std::string rubric = "standard";  ///< of reports: "id" or "id@version"
   std::string benchmark = {};       ///< of reports: id; empty: none
+  bool component_load = false;      ///< of reports: with a page of a component under load
 };
 
 /// What is to be exported, and what it needs beside the recording.
@@ -35,6 +36,7 @@ struct ExportRequest {
   std::filesystem::path data;
   std::optional<score::Rubric> rubric;        ///< of reports; none: the newest standard one
   std::optional<score::Benchmark> benchmark;  ///< of reports
+  bool component_load = false;                ///< of reports
   TracePart part;                             ///< of tables
   std::optional<SessionRequest> labels;       ///< trainee, title and so on; none: as in session.json
 };
@@ -43,8 +45,9 @@ struct ExportRequest {
 enum class ExportKind {
   plain,
   table,   ///< of a part of the ticks
-  report,  ///< with a rubric and a benchmark
-  pair     ///< a second file is written beside the first
+  report,  ///< with a rubric, a benchmark and a component under load
+  pair,    ///< a second file is written beside the first
+  local    ///< not in a server: HDF5's library ends the process where memory is short
 };
 
 /// A kind of file that a session can become.
@@ -69,8 +72,8 @@ const std::vector<ExportFormat>& export_formats();
 /// By its name, or with an empty one by the ending of a file. Error usage names all that there are.
 const ExportFormat& export_format_of(const std::string& name, const std::filesystem::path& out);
 
-/// By its name, of those that are one file, which a server can send. Throws net::RequestError 422 that names
-/// those there are.
+/// By its name, of those that are one file, which a server can make and send. Throws net::RequestError 422
+/// that names those there are.
 const ExportFormat& served_export_format(const std::string& name);
 
 /// Deviations alone (score/deviation_file.hpp), in the order of the vertices of the bone in the PLY files. As

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 
-#include "core/error.hpp"
-#include "record/recorded_bone.hpp"
 #include "score/alignment.hpp"
 #include "score/component_library.hpp"
 #include "score/deviation.hpp"
 #include "score/wall_thickness.hpp"
 #include "session/simulation/find_case.hpp"
+#include "session/simulation/recorded_coverages.hpp"
 #include "session/simulation/recorded_session.hpp"
 #include "session/simulation/recorded_setup.hpp"
 #include "session/simulation/simulation.hpp"
@@ -19,27 +18,6 @@ namespace ream::session {
 namespace {
 
 constexpr int implant_segments = 96;
-
-/// Coverage of one bone at the three moments that matter.
-struct Coverages {
-  std::vector<uint8_t> native, start, left;
-};
-
-Coverages coverages_of(const record::Recording& recording, case_::Case& native_case) {
-  voxel::BoneModel& bone = native_case.bone;
-  Coverages all;
-  all.native = bone.coverage;
-  case_::cut_pilot_hole(bone, *native_case.plan);
-  if (bone.coverage_hash() != recording.header().start_grid_hash)
-    throw Error(ErrorKind::conflict,
-                "the bone of case '" + native_case.id + "' is not that of the recording");
-  all.start = bone.coverage;
-  record::RecordedBone recorded(recording, bone.grid, all.start);
-  recorded.seek(recording.tick_count(), [](const voxel::BrickImage&) {});
-  all.left = bone.coverage;
-  recorded.write_to(all.left);
-  return all;
-}
 
 Aabb box_of_cut(const TriangleMesh& surface, const score::BoneStates& states) {
   const std::vector<uint8_t> cut = score::cut_vertices(surface.vertices_mm, states);

@@ -14,6 +14,7 @@
 #include "score/rubric_store.hpp"
 #include "session/export/reamed_bone.hpp"
 #include "session/folder/session_labels.hpp"
+#include "session/load/component_load.hpp"
 #include "session/scoring/ended_sessions.hpp"
 #include "session/scoring/rescoring.hpp"
 #include "session/simulation/recorded_setup.hpp"
@@ -134,13 +135,34 @@ score::LearningCurve learning_up_to(const json& session, const ExportRequest& re
   return learning_of(theirs, rubric, {});
 }
 
-void put_pictures(const record::Recording& recording, const score::MetricsAccumulator& ticks,
-                  const ExportRequest& request, report::Material& material) {
+report::LoadMaterial load_material(const RecordedLoad& recorded, const report::ReamedBone& bone) {
+  const ComponentLoad& load = recorded.load;
+  report::LoadMaterial material;
+  material.force_n = load.request.force_n;
+  material.cell_mm = load.request.cell_mm;
+  material.law = load.request.law.description();
+  material.settled = load.settled();
+  for (const auto& [name, words] :
+       {std::pair{"before", "Before"}, {"planned", "As planned"}, {"reamed", "As reamed"}})
+    if (const LoadedState* state = load.state(name))
+      material.states.push_back({words, state->supported_percent, state->support_lost_percent,
+                                 state->motion_um(), state->plate_strain(), state->overstrained_percent()});
+  if (load.state("reamed") != nullptr)
+    material.map = report::strain_picture(bone, recorded.strain_codes(bone.after.vertices_mm));
+  return material;
+}
+
+/// What needs the bone: pictures, and the component under load where that is asked for.
+void put_bone(const record::Recording& recording, const score::MetricsAccumulator& ticks,
+              const ExportRequest& request, const Progress& progress, report::Material& material) {
   try {
-    material.pictures =
-        report::session_pictures(reamed_bone(recording, ticks, request.case_name, request.data).bone);
+    const report::ReamedBone bone = reamed_bone(recording, ticks, request.case_name, request.data).bone;
+    material.pictures = report::session_pictures(bone);
+    if (!request.component_load) return;
+    material.load =
+        load_material(load_recorded(recording, request.case_name, request.data, {}, progress), bone);
   } catch (const Error& e) {
-    if (e.kind() == ErrorKind::cancelled || e.kind() == ErrorKind::io) throw;
+    if (e.kind() == ErrorKind::cancelled || e.kind() == ErrorKind::io || request.component_load) throw;
     material.why_no_pictures = std::string("There are no pictures: ") + e.what() + ".";
   }
 }
@@ -180,7 +202,7 @@ report::Report session_report(const ExportRequest& request, const Progress& prog
   material.remarks = remarks_of(recording);
   material.learning = learning_up_to(session, request, material.rubric);
   progress(0.5, "drawing");
-  put_pictures(recording, course.ticks, request, material);
+  put_bone(recording, course.ticks, request, part_of(progress, 0.5, 0.95), material);
   progress(0.95, "laying out");
   return report::make_report(material);
 }

@@ -15,6 +15,7 @@
 #include "session/folder/session_folder.hpp"
 #include "session/live/stream_messages.hpp"
 #include "session/live/viewer_stream.hpp"
+#include "session/simulation/find_case.hpp"
 #include "session/simulation/recorded_session.hpp"
 #include "session/simulation/recorded_setup.hpp"
 #include "sim/model.hpp"

@@ -8,6 +8,7 @@
 #include "core/version.hpp"
 #include "report/advice.hpp"
 #include "score/metric_results.hpp"
+#include "score/plugin_score.hpp"
 #include "score/rubric_store.hpp"
 #include "session/folder/session_folder.hpp"
 
@@ -74,15 +75,22 @@ std::string lost_metric(const json& before, const json& metrics) {
 json score_document(const std::string& scored_by, const json& session, const json& metrics,
                     const Judge& judge) {
   const score::Score score = score::apply_rubric(judge.rubric, metrics);
-  return {{"scored_by", scored_by},
-          {"theatre", session.value("theatre", false)},
-          {"force_scale", metrics.value("force_scale", 1.0)},
-          {"physics", session.value("physics", 1)},
-          {"score", score::score_json(judge.rubric, score)},
-          {"rubric", score::rubric_json(judge.rubric)},
-          {"rubric_id", or_null(judge.rubric_id)},
-          {"benchmark", judge.benchmark ? score::comparison_json(*judge.benchmark, metrics) : json()},
-          {"metrics", metrics}};
+  json document = {
+      {"scored_by", scored_by},
+      {"theatre", session.value("theatre", false)},
+      {"force_scale", metrics.value("force_scale", 1.0)},
+      {"physics", session.value("physics", 1)},
+      {"score", score::score_json(judge.rubric, score)},
+      {"rubric", score::rubric_json(judge.rubric)},
+      {"rubric_id", or_null(judge.rubric_id)},
+      {"benchmark", judge.benchmark ? score::comparison_json(*judge.benchmark, metrics) : json()},
+      {"metrics", metrics}};
+  if (score::offered_plugin_score() && judge.by_plugin) try {
+      document["plugin_score"] = score::plugin_score_json(metrics);
+    } catch (const Error& e) {
+      log::warn("the plug-in could not judge a session: " + std::string(e.what()));
+    }
+  return document;
 }
 
 json explained_score(const json& document) {
@@ -112,6 +120,7 @@ json explained_score(const json& document) {
 
 void write_results(const fs::path& folder, const json& metrics, const json& document) {
   std::error_code failed;
+  if (fs::exists(score_json(folder), failed)) score::require_same_plugin(read_json_file(score_json(folder)));
   if (fs::exists(metrics_json(folder), failed)) {
     const json before = read_json_file(metrics_json(folder));
     if (const std::string lost = lost_metric(before, metrics); !lost.empty())

@@ -14,6 +14,7 @@ struct Judge {
   score::Rubric rubric;
   std::string rubric_id;  ///< among the rubrics of the data folder; empty: not there
   std::shared_ptr<const score::Benchmark> benchmark = nullptr;  ///< null: none
+  bool by_plugin = true;  ///< by the score of a plug-in, too, where there is one
 };
 
 /// score.json (proto/score.schema.json): what a session is worth by a rubric, with the rubric itself, so that
@@ -27,7 +28,8 @@ nlohmann::json score_document(const std::string& scored_by, const nlohmann::json
 nlohmann::json explained_score(const nlohmann::json& document);
 
 /// Writes metrics.json and score.json of a session that has ended, each atomically. Errors: conflict, with
-/// the folder as it was, when `metrics` say less than what lies there (its case is gone); io.
+/// the folder as it was, when `metrics` say less than what lies there (its case is gone), or when its score
+/// is another plug-in's; io.
 void write_results(const std::filesystem::path& folder, const nlohmann::json& metrics,
                    const nlohmann::json& document);
 

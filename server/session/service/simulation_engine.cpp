@@ -38,6 +38,7 @@ ExportRequest export_request_of(const ExportFormat& format, const ExportOrder& o
   request.labels = order.session;
   if (format.kind != ExportKind::report) return request;
   request.rubric = score::RubricStore(rubrics_folder(data)).find(order.rubric);
+  request.component_load = order.component_load;
   if (!order.benchmark.empty())
     request.benchmark = score::load_benchmark(benchmarks_folder(data) / (order.benchmark + ".json"));
   return request;

@@ -56,6 +56,15 @@ Reamer recorded_reamer(const record::Recording& recording, const record::ops::Se
           segment.tool_file};
 }
 
+void require_same_physics(const record::Recording& recording, const sim::Settings& settings) {
+  if (settings.physics == sim::physics_revision) return;
+  throw Error(ErrorKind::conflict, recording.log().path().string() + " was made with physics revision " +
+                                       std::to_string(settings.physics) +
+                                       ", and this build computes revision " +
+                                       std::to_string(sim::physics_revision) +
+                                       "; it can be watched and scored, but not computed again or resumed");
+}
+
 SimulationSetup recorded_setup(const record::Recording& recording, const record::ops::Segment& segment,
                                case_::Case bone_case, const sim::ResumeState& from,
                                const std::string& backend) {
@@ -67,11 +76,7 @@ SimulationSetup recorded_setup(const record::Recording& recording, const record:
   parts.reamer = recorded_reamer(recording, segment);
   parts.tool = tool_of(parts.reamer);
   parts.settings = recorded_settings(recording, backend);
-  if (const int made_with = parts.settings.physics; made_with != sim::physics_revision)
-    throw Error(ErrorKind::conflict, recording.log().path().string() + " was made with physics revision " +
-                                         std::to_string(made_with) + ", and this build computes revision " +
-                                         std::to_string(sim::physics_revision) +
-                                         "; it can be watched and scored, but not computed again or resumed");
+  require_same_physics(recording, parts.settings);
   parts.from = from;
   return parts;
 }

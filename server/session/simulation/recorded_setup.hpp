@@ -19,6 +19,9 @@ case_::Anatomy anatomy_in(const record::Recording& recording);
 /// Settings of a recording, to compute with `backend`. Error invalid_input.
 sim::Settings recorded_settings(const record::Recording& recording, const std::string& backend);
 
+/// Error conflict where the settings are of another physics: it cannot be computed again by this build.
+void require_same_physics(const record::Recording& recording, const sim::Settings& settings);
+
 /// The reamer of a segment. Error invalid_input.
 Reamer recorded_reamer(const record::Recording& recording, const record::ops::Segment& segment);
 

@@ -31,6 +31,7 @@ sim::Settings settings_for(const RunRequest& request, const device::Script& scri
   settings.random_seed = request.random_seed;
   settings.feed.kind =
       force::feed_kind_from_text(request.feed_model.empty() ? script.feed_model : request.feed_model);
+  settings.feed.plugin = force::offered_feed_model();
   settings.feed.spindle_rad_s = rad_s_from_rpm(script.spindle_rpm);
   settings.feed.specimen_factor = script.specimen_factor;
   // A study's script says what it compares; else bone is cut as its case says.

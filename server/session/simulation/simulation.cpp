@@ -27,6 +27,10 @@ nlohmann::json guide_json(const sim::Model& model) {
   return described;
 }
 
+std::string model_name(const force::FeedSettings& feed) {
+  return feed.plugin ? feed.plugin->name + " " + feed.plugin->version : force::to_text(feed.kind);
+}
+
 nlohmann::json mount_json(const sim::Model& model) {
   if (!model.mount) return "rigid";
   const auto list = [](const Vec3& v) { return nlohmann::json{v.x(), v.y(), v.z()}; };
@@ -74,7 +78,7 @@ nlohmann::json Simulation::description() const {
       {"device_profile", device->traits().profile},
       {"force_scale", model.settings.force_scale},
       {"stiffness_n_mm", model.settings.stiffness_n_mm},
-      {"model", force::to_text(model.settings.feed.kind)},
+      {"model", model_name(model.settings.feed)},
       {"spindle_rpm", script.spindle_rpm},
       {"specimen_factor", model.settings.feed.specimen_factor},
       {"vibration", vibration_json(model)},
@@ -86,6 +90,9 @@ nlohmann::json Simulation::description() const {
       {"start_grid_hash", to_hex(bone_case.bone.coverage_hash())}};
   if (model.settings.removal == sim::RemovalLaw::decay)
     description["decay_levels"] = model.settings.decay_levels;
+  if (const auto& plugin = model.settings.feed.plugin)
+    description["plugin"] = {
+        {"name", plugin->name}, {"version", plugin->version}, {"sha256", plugin->sha256}};
   if (const uint64_t hash = model.feed->table_hash(); hash != 0)
     description["feed_table_hash"] = to_hex(hash);
   return description;

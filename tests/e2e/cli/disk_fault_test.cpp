@@ -22,7 +22,7 @@ using nlohmann::json;
 
 /// So many calls fail, each in a run of its own; in full tests every call of the disk does, and some of those
 /// that ask for memory, which are hundreds of thousands.
-constexpr size_t some_faults = 2, some_allocations = 4, many_allocations = 400;
+constexpr size_t some_faults = 1, some_allocations = 2, many_allocations = 400;
 
 /// A disk fails once, in any call, or memory does: the command says so in one line and leaves nothing half
 /// made, or it has done all.
@@ -151,6 +151,19 @@ TEST_P(DiskFault, ACaseIsWholeOrNotThere) {
       EXPECT_TRUE(text_of("data/cases/" + made + file) == text_of(std::string("data/cases/whole") + file))
           << file;
   });
+}
+
+TEST_P(DiskFault, ATableForOtherToolsIsWholeOrNotThere) {
+  succeed({"simulate", "--case", "block", "--script", short_script(), "--backend", "cpu", "--out", "one"});
+  for (const char* format : {"parquet", "hdf5"}) {
+    // HDF5 1.10 ends the process, or calls itself without end, where it lacks a small piece of memory.
+    if (std::string_view(format) == "hdf5" && std::string_view(GetParam()) == "allocate") continue;
+    SCOPED_TRACE(format);
+    fail_in_turn({"export", "one", "--format", format, "--out", "MADE"},
+                 [&](const std::string& made) { EXPECT_TRUE(text_of(made) == text_of("whole")); });
+    for (const auto& name : tree())
+      if (name.starts_with("made-")) fs::remove(folder() / name.substr(0, name.find(' ')));
+  }
 }
 
 TEST_P(DiskFault, ABackupIsWholeOrNotThere) {

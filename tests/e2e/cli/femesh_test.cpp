@@ -46,12 +46,18 @@ TEST_F(Femesh, BoneIsCompressed) {
   EXPECT_LT(solved["modulus_mpa"], solved["voigt_mpa"]);
   EXPECT_EQ(answer({"solve", "rows.txt", "--modulus", "0,10", "--axis", "y", "--threads", "1"})["force_n"],
             solved["force_n"]);
+  const auto on_device =
+      answer({"solve", "rows.txt", "--modulus", "0,10", "--axis", "y", "--backend", "opencl"});
+  EXPECT_EQ(on_device["force_n"], solved["force_n"]);
+  EXPECT_EQ(on_device["backend"].get<std::string>().substr(0, 8), "opencl: ");
   EXPECT_EQ(answer({"solve", "rows.txt", "--upsample", "2", "--modulus", "0,10"})["elements"], 4096);
   refuse(1, "not converged after 1 iterations",
          {"solve", "rows.txt", "--modulus", "0,10", "--max-iterations", "1", "--platens", "fixed",
           "--tolerance", "1e-8"});
   refuse(1, "nowhere", {"solve", "nowhere"});
   refuse(2, "--axis", {"solve", "rows.txt", "--axis", "w"});
+  refuse(2, "--backend 'gpu'", {"solve", "rows.txt", "--backend", "gpu"});
+  refuse(2, "no OpenCL device 'opencl:99'", {"solve", "rows.txt", "--backend", "opencl:99"});
   refuse(1, "no voxel is bone", {"solve", "rows.txt", "--modulus", "0,10", "--threshold", "5000"});
 }
 

@@ -102,7 +102,7 @@ class KilledServer : public ServeBlock {
 
 TEST_F(KilledServer, LosesLessThanASecondAtAnyMoment) {
   const char* wanted = std::getenv("REAM_KILLS");
-  const int kills = wanted ? std::atoi(wanted) : full_tests() ? 200 : 20;
+  const int kills = wanted ? std::atoi(wanted) : tried_of(200, 8);
   std::cout << kills << " kills (REAM_KILLS)\n";
   std::mt19937 random(test::seed());
   std::uniform_int_distribution<int> life_ms(0, 2500);

@@ -9,7 +9,9 @@
 #include "ct/phantom/phantom.hpp"
 #include "ct/read/write_volume.hpp"
 #include "e2e/cli/serve_block_fixture.hpp"
+#include "support/full_tests.hpp"
 #include "support/places.hpp"
+#include "support/seed.hpp"
 
 namespace ream::test {
 namespace {
@@ -202,7 +204,13 @@ TEST_P(PowerLoss, KeepsWhatCommandsMade) {
   succeed({"replay", "made/session", "--verify"});
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, PowerLoss, testing::Values(Lost::names, Lost::bytes), [](const auto& one) {
+/// In full tests both, else one of them.
+std::vector<Lost> losses() {
+  if (full_tests()) return {Lost::names, Lost::bytes};
+  return {seed() % 2 == 0 ? Lost::names : Lost::bytes};
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, PowerLoss, testing::ValuesIn(losses()), [](const auto& one) {
   return one.param == Lost::names ? std::string("NamesAndBytes") : std::string("Bytes");
 });
 

@@ -45,6 +45,21 @@ TEST_F(RecordedSession, IsExportedAsTheRunWroteIt) {
   EXPECT_EQ(text_of("again.csv"), text_of("run/trace.csv"));
 }
 
+TEST_F(RecordedSession, IsExportedForOtherToolsWholeOrNotAtAll) {
+  succeed({"export", "run", "--out", "trace.parquet"});
+  EXPECT_TRUE(text_of("trace.parquet").starts_with("PAR1"));
+  EXPECT_TRUE(text_of("trace.parquet").ends_with("PAR1"));
+  succeed({"export", "run", "--out", "run.h5"});
+  EXPECT_TRUE(text_of("run.h5").starts_with("\x89HDF\r\n\x1a\n"));
+  succeed({"export", "run", "--out", "same", "--format", "hdf5"});
+  EXPECT_TRUE(text_of("run.h5") == text_of("same"));
+  refuse(2, "parquet, hdf5", {"export", "run", "--out", "a.h5", "--format", "hdf"});
+  refuse(2, ".h5", {"export", "run", "--out", "a.hdf"});
+  refuse(1, "nowhere", {"export", "run", "--out", "a.h5", "--case", "nowhere"});
+  refuse(1, "a.h5", {"export", "run", "--out", "nowhere/a.h5"});
+  refuse(1, "no session 'nobody'", {"export", "nobody", "--out", "a.parquet"});
+}
+
 TEST_F(RecordedSession, GoesToAnotherMachineInOneFile) {
   succeed({"export", "run", "--out", "bundle.zip"});
   const std::string id = answer({"import", "bundle.zip", "--data", "elsewhere"}).at("session");

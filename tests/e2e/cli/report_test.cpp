@@ -149,5 +149,26 @@ TEST_F(SessionReport, OtherEndingsAreRefusedWithThoseThereAre) {
   refuse(2, "for reports", {"export", "run", "--out", "a.csv", "--rubric", "standard"});
 }
 
+TEST_F(SessionReport, HasAPageOfAComponentUnderLoad) {
+  simulate_short_demo();
+  succeed({"export", "run", "--out", "report.pdf", "--component-load"});
+  const std::string text = poppler("pdftotext", {"-layout", (folder() / "report.pdf").string(), "-"});
+  for (const char* words :
+       {"Component under load", "750", "Before", "As planned", "As reamed", "Micromotion index"})
+    EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
+  const json load = answer({"solve", "run", "--component", "--cell-mm", "2"});
+  ASSERT_EQ(load.at("states").size(), 3u);
+  for (const json& state : load.at("states")) {
+    EXPECT_EQ(state.at("loads").size(), 5u);
+    EXPECT_GT(state.at("motion_um"), 0.0);
+    EXPECT_GT(state.at("supported_percent"), 0.0);
+  }
+  EXPECT_GT(load.at("states")[1].at("supported_percent"), load.at("states")[0].at("supported_percent"))
+      << "the plan's reaming supports the component";
+  refuse(2, "are for reports", {"export", "run", "--out", "bone.stl", "--component-load"});
+  refuse(1, "no session", {"solve", "demo", "--component"});
+  refuse(2, "--cell-mm", {"solve", "run", "--component", "--cell-mm", "0"});
+}
+
 }  // namespace
 }  // namespace ream::test

@@ -1,9 +1,15 @@
 #include "core/file_lock.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
 
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
@@ -51,6 +57,44 @@ TEST_F(FileLockTest, AKilledProcessLetsGo) {
   EXPECT_TRUE(FileLock::attempt(path));
   ::close(ready[0]);
   ::close(ready[1]);
+}
+
+/// The system may put somebody aside while they look whether it is held.
+TEST_F(FileLockTest, WhoLooksAWhileDoesNotRefuseIt) {
+  ASSERT_TRUE(FileLock::attempt(path));
+  const FileDescriptor looking(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  ASSERT_EQ(::flock(looking.get(), LOCK_SH | LOCK_NB), 0);
+  std::thread other([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    ::flock(looking.get(), LOCK_UN);
+  });
+  EXPECT_TRUE(FileLock::attempt(path));
+  other.join();
+}
+
+TEST_F(FileLockTest, WhoLooksAgainAndAgainDoesNotRefuseIt) {
+  ASSERT_TRUE(FileLock::attempt(path));
+  std::atomic<bool> done{false};
+  std::thread looks([&] {
+    while (!done) FileLock::held(path);
+  });
+  int refused = 0;
+  for (int i = 0; i < 2000; ++i) refused += !FileLock::attempt(path);
+  done = true;
+  looks.join();
+  EXPECT_EQ(refused, 0);
+}
+
+TEST_F(FileLockTest, WhatIsMovedAwayMeanwhileIsNotHeld) {
+  auto first = FileLock::attempt(path);
+  ASSERT_TRUE(first);
+  std::thread other([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    std::filesystem::rename(path, folder.path() / "elsewhere");
+    first.reset();
+  });
+  EXPECT_FALSE(FileLock::attempt(path));
+  other.join();
 }
 
 TEST_F(FileLockTest, NoPlaceForItIsAnError) {

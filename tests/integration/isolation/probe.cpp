@@ -87,7 +87,9 @@ json call(const fs::path&, const json& options, const ream::Progress&) {
   told["descriptors"] = json::array();
   for (int descriptor = 7; descriptor < 60; ++descriptor)
     if (::fcntl(descriptor, F_GETFD) >= 0) told["descriptors"].push_back(descriptor);
-  told["environment"] = ::environ[0] == nullptr ? "empty" : "not empty";
+  told["environment"] = json::array();
+  for (char** variable = ::environ; *variable != nullptr; ++variable)
+    told["environment"].push_back(*variable);
   int sum = 0;
   std::thread([&sum] { sum = 7; }).join();
   told["thread"] = sum;

@@ -67,9 +67,9 @@ inline constexpr Limits server_limits{.header_lines = 250,
                                       .p90_function_lines = 25,
                                       .folder_cycles = 0,
                                       .single_function_headers = 15,
-                                      .private_headers = 22,
-                                      .files = 1029,
-                                      .lines = 95160,
+                                      .private_headers = 23,
+                                      .files = 1087,
+                                      .lines = 101100,
                                       .min_median_file_lines = 70,
                                       .max_median_file_lines = 110};
 

@@ -16,8 +16,8 @@ bool same(const render::VertexColour& a, const render::VertexColour& b) {
 
 TEST(DeviationScale, ClassesAscendAndCoverEverything) {
   const auto& classes = deviation_classes();
-  for (size_t i = 1; i < classes.size(); ++i) EXPECT_LT(classes[i - 1].up_to_mm, classes[i].up_to_mm);
-  EXPECT_GT(classes.back().up_to_mm, score::deviation_range_mm);
+  for (size_t i = 1; i < classes.size(); ++i) EXPECT_LT(classes[i - 1].up_to, classes[i].up_to);
+  EXPECT_GT(classes.back().up_to, score::deviation_range_mm);
   for (int code = -127; code <= 127; ++code) {
     const double mm = score::deviation_mm(static_cast<int8_t>(code));
     const auto colour = deviation_colour(static_cast<int8_t>(code));
@@ -44,7 +44,7 @@ TEST(DeviationScale, FartherIsDarkerOnEitherSide) {
 TEST(WallScale, ThinnerIsDarkerAndTheThinnestIsHatched) {
   const auto& classes = wall_classes();
   for (size_t i = 0; i + 1 < classes.size(); ++i) {
-    EXPECT_LT(classes[i].up_to_mm, classes[i + 1].up_to_mm);
+    EXPECT_LT(classes[i].up_to, classes[i + 1].up_to);
     EXPECT_LT(luminance(classes[i].colour), luminance(classes[i + 1].colour));
   }
   const int8_t codes[] = {0, 8, 9, 127, score::deviation_unknown};
@@ -61,9 +61,9 @@ TEST(WallScale, ThinnerIsDarkerAndTheThinnestIsHatched) {
 TEST(DeviationScale, SidesAreToldApartByBlueAlone) {
   for (const DeviationClass& each : deviation_classes()) {
     const int blueness = 2 * each.colour.blue - each.colour.red - each.colour.green;
-    if (each.up_to_mm < -0.2) {
+    if (each.up_to < -0.2) {
       EXPECT_LT(blueness, -50) << each.words;
-    } else if (each.up_to_mm > 0.3) {
+    } else if (each.up_to > 0.3) {
       EXPECT_GT(blueness, 25) << each.words;
     }
   }

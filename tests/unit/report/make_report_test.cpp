@@ -149,5 +149,33 @@ TEST(MakeReport, ComparesWithTheBenchmark) {
   EXPECT_EQ(fact(report.benchmark, "Seating"), "85\u00a0%, not reached (at least 95\u00a0%)");
 }
 
+TEST(MakeReport, AComponentUnderLoadHasAPageOfItsOwn) {
+  Material material = test::full_material();
+  EXPECT_EQ(html_of(make_report(material)).find("Component under load"), std::string::npos);
+  LoadMaterial load;
+  load.force_n = 750.0;
+  load.cell_mm = 1.0;
+  load.law = "morgan-2003: E = 8920 g^1.83 MPa";
+  load.states = {{"Before", 42.3, 64.8, 93.4, 0.00231, 12.5}, {"As reamed", 100.0, 7.7, 3.5, {}, 0.0}};
+  material.load = load;
+  const Report report = make_report(material);
+  ASSERT_TRUE(report.load);
+  const std::vector<std::vector<std::string>> rows = {
+      {"Supported by bone, without load", "42\u00a0%", "100\u00a0%"},
+      {"Support that a load lifts off", "65\u00a0%", "8\u00a0%"},
+      {"Micromotion index: component against bone", "93\u00a0\u00b5m", "4\u00a0\u00b5m"},
+      {"Peak strain of the subchondral plate", "0.23\u00a0%", "no plate is left"},
+      {"Bone within 3 mm that is strained beyond 0.7\u00a0%", "12.5\u00a0%", "0.0\u00a0%"}};
+  EXPECT_EQ(report.load->rows, rows);
+  EXPECT_EQ(report.load->heads, (std::vector<std::string>{"", "Before", "As reamed"}));
+  EXPECT_EQ(report.load->assumptions.find("rough"), std::string::npos);
+  const std::string html = html_of(report);
+  for (const auto& row : rows)
+    for (const std::string& cell : row) EXPECT_NE(html.find(cell), std::string::npos) << cell;
+  EXPECT_FALSE(pdf_of(report).empty());
+  material.load->settled = false;
+  EXPECT_NE(make_report(material).load->assumptions.find("rough"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace ream::report

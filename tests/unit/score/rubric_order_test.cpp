@@ -6,6 +6,7 @@
 
 #include "score/rubric_score.hpp"
 #include "support/executed_plan.hpp"
+#include "support/full_tests.hpp"
 #include "support/seed.hpp"
 
 namespace ream::score {
@@ -15,7 +16,7 @@ using test::ExecutedPlan;
 using test::Stray;
 
 constexpr double voxel_mm = 0.4;
-constexpr unsigned plan_count = 20;
+const unsigned plan_count = test::tried_of(20u, 8u);
 
 /// Sound plans of seeded glenoids, in turn: a round reamer of the whole face, and a component that is well
 /// seated if the plan is carried out.

@@ -140,10 +140,11 @@ TEST_P(ScoreTruth, IsWhatIsSaid) {
   }
 }
 
-/// How many reamings, of the seeds from 0: ten, in full tests a hundred, unless REAM_REAMINGS says otherwise.
+/// How many reamings, of the seeds from 0: five, in full tests a hundred, unless REAM_REAMINGS says
+/// otherwise.
 unsigned reamings() {
   const char* wanted = std::getenv("REAM_REAMINGS");
-  if (wanted == nullptr) return full_tests() ? 100 : 10;
+  if (wanted == nullptr) return tried_of(100, 5);
   return static_cast<unsigned>(std::max(1, std::atoi(wanted)));
 }
 

@@ -162,7 +162,7 @@ std::vector<device::DeviceTraits> impedance_devices() {
 /// Stiff and soft, trembling, striking at 1 m/s, chattering; on every device up to its stiffest coupling, in
 /// bone of any hardness, with the spindle on and off and pauses between.
 void hold_by_many_hands(Bench& bench) {
-  const int hands = full_tests() ? 10000 : 1000;
+  const int hands = tried_of(10000, 400);
   std::cout << "seed " << test::seed(passivity_seed) << '\n';
   const auto devices = impedance_devices();
   ASSERT_GE(devices.size(), 14u);

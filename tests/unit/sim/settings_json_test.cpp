@@ -53,6 +53,14 @@ TEST(SettingsJson, KeepEveryBitOfEveryNumber) {
   }
 }
 
+TEST(SettingsJson, NameThePluginWhoseFeedModelItIsAndNoneElse) {
+  Settings settings;
+  EXPECT_FALSE(to_json(settings).at("feed").contains("plugin")) << "as before there were any";
+  EXPECT_FALSE(settings_from_json(to_json(settings), "test").feed.plugin.has_value());
+  settings.feed.plugin = PluginIdentity{"softbone", "1.2", std::string(64, 'a')};
+  EXPECT_EQ(settings_from_json(to_json(settings), "test").feed.plugin, settings.feed.plugin);
+}
+
 TEST(SettingsJson, TellWhatIsThereFromWhatIsNot) {
   Settings settings;
   EXPECT_FALSE(settings_from_json(to_json(settings), "test").virtual_mass.has_value());

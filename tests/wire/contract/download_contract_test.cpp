@@ -95,6 +95,8 @@ class DownloadContractTest : public ContractTest {
     expect_post(pattern, path, 413, std::string(options.listen.limits.body_bytes + 1, ' '));
     expect_post(pattern, path, 415, good, {{"Content-Type", "text/plain"}});
     expect_post(pattern, path, 422, R"({"format": "docx"})");
+    expect_post(pattern, path, 422, R"({"format": "hdf5"})");
+    expect_post(pattern, path, 422, R"({"format": "csv", "component_load": true})");
     expect_post(pattern, path, 422, R"({"format": "ply", "stride": 5})");
     const json done = ended(expect_repeatable(pattern, path, 202, good));
     EXPECT_EQ(done.at("session_id"), "ended");
@@ -106,7 +108,7 @@ class DownloadContractTest : public ContractTest {
     expect_as_described("GET", one_job + "/result", 416, part_of(result, "1000-"));
     expect_get(one_job + "/result", "/api/v1/jobs/nothing/result", 404);
     reports(path);
-    for (const char* name : {"ply", "stl", "glb", "png", "zip"}) {
+    for (const char* name : {"ply", "stl", "glb", "png", "zip", "parquet", "causes"}) {
       const json made = ended(post(path, json{{"format", name}}.dump()));
       expect_get(one_job + "/result", "/api/v1/jobs/" + made.at("id").get<std::string>() + "/result", 200);
     }

@@ -37,8 +37,11 @@ function OneCase({ id, mayEdit, reaming }: OneCaseParts) {
   useEffect(() => {
     void controller.open();
     const leave = () => controller.landmarks.leave();
+    const sendAhead = () => controller.landmarks.sendAhead();
+    window.addEventListener('beforeunload', sendAhead);
     window.addEventListener('pagehide', leave);
     return () => {
+      window.removeEventListener('beforeunload', sendAhead);
       window.removeEventListener('pagehide', leave);
       controller.leave();
     };

@@ -13,6 +13,7 @@ import { MeasurePanel } from '../panels/review/measure_panel';
 import { ReviewPane } from '../panels/review/review_pane';
 import { ReviewTools } from '../panels/review/review_tools';
 import { ScorePanel } from '../panels/review/score_panel';
+import { VerificationPanel } from '../panels/review/verification_panel';
 import { useIdentity } from '../panels/common/site_nav';
 import { useShownName } from '../panels/common/use_shown_name';
 import type { Route } from '../state/route';
@@ -52,6 +53,10 @@ export function ReviewPage({ route }: { route: Route & { kind: 'review' } }) {
         {panes.map(({ session }, i) => (
           <FilesPanel key={session.id + String(i)} session={session} review={workspace.review} />
         ))}
+        {may.ream &&
+          panes.map(({ session }, i) => (
+            <VerificationPanel key={session.id + String(i)} session={session} review={workspace.review} />
+          ))}
         <ComparePanel panes={panes} />
         <KeysPanel />
       </aside>

@@ -1,5 +1,6 @@
 /** Texts of the review page; loaded with it. */
 import type { MapName } from '../wire/review_api';
+import { duration } from './format';
 
 const sideWords = { proud: 'too high', even: '', beyond: 'too deep' };
 
@@ -202,7 +203,12 @@ export const reviewText = {
   formats: {
     html: ['Report (HTML)', 'One page with pictures, maps and every metric with its source'],
     pdf: ['Report (PDF)', 'The same report for printing'],
+    load: [
+      'Report with loaded implant (PDF)',
+      'Adds a page: the bone under a loaded implant, before and after reaming',
+    ],
     csv: ['Trace (CSV)', 'Forces and poses, one row per millisecond'],
+    parquet: ['Trace (Parquet)', 'The same for pandas, Polars, R'],
     stl: ['Bone (STL)', 'The reamed surface'],
     ply: ['Bone, implant, map (PLY)', 'Reamed surface and seated implant, coloured by deviation from the plan'],
     glb: ['Bone, implant, map (GLB)', 'The same for glTF viewers'],
@@ -212,6 +218,23 @@ export const reviewText = {
   making: (percent: string) => `preparing, ${percent}`,
   ready: 'Download again',
   exportFailed: (what: string, reason: string) => `${what} could not be prepared: ${reason}`,
+  verification: 'Verification',
+  verificationHint:
+    'This browser computes the bone again from every recorded movement. Forces, score and author are not checked.',
+  verify: 'Verify here',
+  verifying: (s: number) => `${duration(s)} computed and in agreement so far`,
+  verified: (s: number) => `✓ ${duration(s)} of movements, computed again, leave exactly the recorded bone.`,
+  partlyVerified: (s: number, all: number) =>
+    `✓ ${duration(s)} of movements agree. The recording has ${duration(all)}; no bone was saved for its last moments.`,
+  notAgreeing: {
+    differs: (s: number) => `The recording contradicts itself. The bone agrees for the first ${duration(s)} only.`,
+    damaged: (s: number) => `The file is damaged. The bone agrees for the first ${duration(s)}.`,
+  },
+  notVerified: {
+    browser: 'This browser could not compute the bone. It needs WebAssembly, and memory for the whole bone.',
+    connection: 'The files did not arrive. Check the connection, then verify again.',
+  },
+  verificationRefused: (reason: string) => `The session could not be verified: ${reason}`,
   filesForbidden: 'Viewer links do not offer files. Log in to download them.',
   shareHere: 'Share',
   linkHint: 'A link to this review for someone without an account',

@@ -5,7 +5,7 @@ import { problemText } from './problem_text';
 
 export const mapNames = ['plan', 'implant', 'wall'] as const;
 export type MapName = (typeof mapNames)[number];
-export const exportFormats = ['html', 'pdf', 'csv', 'stl', 'ply', 'glb'] as const;
+export const exportFormats = ['html', 'pdf', 'load', 'csv', 'parquet', 'stl', 'ply', 'glb'] as const;
 export type ExportFormat = (typeof exportFormats)[number];
 
 /** What a byte of a deviation map means; as the server says with the map. */
@@ -79,8 +79,9 @@ export class ReviewApi {
   }
 
   /** Makes a file of a session; where it is when it is done. */
-  async exported(id: string, format: ExportFormat, onProgress: OnProgress): Promise<string> {
-    const begun = await this.rest.json('post', '/api/v1/sessions/{id}/exports', { path: { id }, body: { format } });
+  async exported(id: string, format: ExportFormat | 'causes', onProgress: OnProgress): Promise<string> {
+    const body = format === 'load' ? { format: 'pdf', component_load: true } : { format };
+    const begun = await this.rest.json('post', '/api/v1/sessions/{id}/exports', { path: { id }, body });
     const done = await waitForJob(begun, this.job, onProgress);
     return this.rest.url('/api/v1/jobs/{id}/result', { path: { id: done.id } });
   }

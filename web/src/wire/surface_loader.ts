@@ -1,3 +1,4 @@
+import { askWorker } from './ask_worker';
 import { ApiError, credentials } from './rest';
 import type { SortedSurface, SurfaceReport, SurfaceRequest } from './surface_worker';
 
@@ -10,24 +11,18 @@ export function loadSurface(
   onProgress: (share: number) => void,
   signal: AbortSignal,
 ): Promise<SortedSurface> {
-  return new Promise((resolve, reject) => {
-    const worker = new Worker(new URL('./surface_worker.ts', import.meta.url), { type: 'module' });
-    const end = (settle: () => void) => {
-      worker.terminate();
-      signal.removeEventListener('abort', giveUp);
-      settle();
-    };
-    const giveUp = () => end(() => reject(new DOMException('given up', 'AbortError')));
-    signal.addEventListener('abort', giveUp);
-    worker.onerror = () => end(() => reject(new ApiError('', 0)));
-    worker.onmessage = ({ data }: MessageEvent<SurfaceReport>) => {
-      if (data.kind === 'making') onProgress(data.share);
-      else if (data.kind === 'surface') end(() => resolve(data.surface));
+  return askWorker<SurfaceRequest, SurfaceReport, SortedSurface>(
+    () => new Worker(new URL('./surface_worker.ts', import.meta.url), { type: 'module' }),
+    request,
+    signal,
+    (report, { resolve, reject }) => {
+      if (report.kind === 'making') onProgress(report.share);
+      else if (report.kind === 'surface') resolve(report.surface);
       else {
-        if (data.status === 401) credentials.onRefused?.();
-        end(() => reject(new ApiError(data.message, data.status)));
+        if (report.status === 401) credentials.onRefused?.();
+        reject(new ApiError(report.message, report.status));
       }
-    };
-    worker.postMessage(request);
-  });
+    },
+    ({ reject }) => reject(new ApiError('', 0)),
+  );
 }

@@ -39,6 +39,8 @@ export class LandmarkEditor {
 
   /** As the server last sent them to this page. */
   private known: Landmarks = {};
+  /** As they were sent when the page was about to go away, although it has stayed. */
+  private sentAhead: Landmarks | null = null;
   private timer: ReturnType<typeof setTimeout> | undefined;
   private saving = false;
   private ended = false;
@@ -54,6 +56,7 @@ export class LandmarkEditor {
   take(landmarks: Landmarks | null): void {
     clearTimeout(this.timer);
     this.known = landmarks ?? {};
+    this.sentAhead = null;
     batch(() => {
       this.landmarks.value = placedFrom(this.known);
       this.save.value = { kind: 'saved' };
@@ -89,12 +92,14 @@ export class LandmarkEditor {
     this.save.value = { kind: 'saving' };
     try {
       const now = await this.api.case(this.caseId);
-      if (!sameLandmarks(now.landmarks, this.known)) {
+      const isOurs = this.sentAhead !== null && sameLandmarks(now.landmarks, this.sentAhead);
+      if (!isOurs && !sameLandmarks(now.landmarks, this.known)) {
         this.save.value = { kind: 'conflict', theirs: now.landmarks ?? {} };
         return;
       }
       const saved = await this.api.putLandmarks(this.caseId, landmarksOf(sent));
       this.known = saved.landmarks ?? {};
+      this.sentAhead = null;
       this.hasSaved.value = true;
       this.onSaved(saved);
       this.save.value = this.landmarks.value === sent ? { kind: 'saved' } : { kind: 'unsaved' };
@@ -126,12 +131,21 @@ export class LandmarkEditor {
     }
   }
 
-  /** The page goes away: what waits is sent at once, without waiting for an answer. */
+  /**
+   * The page may go away: what waits is sent at once, without waiting for an answer. A browser gives a page that it has
+   * left half a second, which a busy machine may not have. Where the page stays, it is saved as ever.
+   */
+  sendAhead(): void {
+    const { kind } = this.save.value;
+    if (kind === 'saved' || kind === 'conflict') return;
+    this.sentAhead = landmarksOf(this.landmarks.value);
+    this.api.putLandmarksOnLeaving(this.caseId, this.sentAhead);
+  }
+
+  /** The page goes away. */
   leave(): void {
     this.ended = true;
     clearTimeout(this.timer);
-    const { kind } = this.save.value;
-    if (kind !== 'saved' && kind !== 'conflict')
-      this.api.putLandmarksOnLeaving(this.caseId, landmarksOf(this.landmarks.value));
+    this.sendAhead();
   }
 }

@@ -103,6 +103,17 @@ describe('LandmarkEditor', () => {
     expect(api.puts).toEqual([]);
   });
 
+  it('saves as ever when the page stays that was about to go', async () => {
+    place(4);
+    controller.sendAhead();
+    api.onServer = { glenoid_centre_mm: [0, 4, 0] };
+    place(5);
+    await vi.advanceTimersByTimeAsync(350);
+    await settle();
+    expect(controller.save.value.kind).toBe('saved');
+    expect(api.onServer).toEqual({ glenoid_centre_mm: [0, 5, 0] });
+  });
+
   it('saves what was changed while a save was on its way', async () => {
     place(1);
     await vi.advanceTimersByTimeAsync(350);
