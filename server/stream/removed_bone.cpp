@@ -7,13 +7,18 @@ constexpr size_t levels_a_byte = 2;
 
 }  // namespace
 
-RemovedBone::RemovedBone(const voxel::Replica& now)
-    : now_(now), layout_(now.grid()), place_(now.grid().brick_count(), 0) {}
+RemovedBone::RemovedBone(const voxel::VoxelGrid& grid, const std::vector<uint8_t>& now)
+    : grid_(grid), now_(now), layout_(grid), place_(grid.brick_count(), 0) {}
 
 void RemovedBone::keep(uint32_t brick, const uint8_t* before) {
   if (place_[brick] != 0) return;
   before_.insert(before_.end(), before, before + voxel::brick_voxels);
   place_[brick] = static_cast<uint32_t>(before_.size() / voxel::brick_voxels);
+}
+
+const uint8_t* RemovedBone::kept(uint32_t brick) const {
+  const uint32_t place = place_[brick];
+  return place == 0 ? nullptr : before_.data() + size_t{place - 1} * voxel::brick_voxels;
 }
 
 std::vector<uint8_t> RemovedBone::levels(std::span<const surface::BlockVertex> vertices,
@@ -43,12 +48,10 @@ std::vector<uint8_t> RemovedBone::packed(std::span<const uint8_t> levels) {
 }
 
 surface::TwoCoverages RemovedBone::sample_at(const Vec3i& voxel) const {
-  if (!now_.grid().contains(voxel)) return {};
-  const size_t index = now_.grid().index(voxel);
-  const uint8_t now = now_.coverage()[index];
-  const uint32_t place = place_[index / voxel::brick_voxels];
-  if (place == 0) return {now, now};
-  return {before_[size_t{place - 1} * voxel::brick_voxels + index % voxel::brick_voxels], now};
+  if (!grid_.contains(voxel)) return {};
+  const size_t index = grid_.index(voxel);
+  const uint8_t* before = kept(static_cast<uint32_t>(index / voxel::brick_voxels));
+  return {before == nullptr ? now_[index] : before[index % voxel::brick_voxels], now_[index]};
 }
 
 }  // namespace ream::stream

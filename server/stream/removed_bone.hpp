@@ -15,11 +15,14 @@ class RemovedBone {
  public:
   static constexpr int max_level = 15;  ///< half a voxel under the first surface or more
 
-  /// `now` outlives this.
-  explicit RemovedBone(const voxel::Replica& now);
+  /// `now` has grid.voxel_count() bytes in the order of VoxelGrid::index, and outlives this.
+  RemovedBone(const voxel::VoxelGrid& grid, const std::vector<uint8_t>& now);
+  explicit RemovedBone(const voxel::Replica& now) : RemovedBone(now.grid(), now.coverage()) {}
 
   /// A brick as it was before its first change, brick_voxels bytes; of a brick that is known nothing changes.
   void keep(uint32_t brick, const uint8_t* before);
+  /// What was kept of it; null: nothing. Until the next keep().
+  const uint8_t* kept(uint32_t brick) const;
 
   /// Of vertices of `block` (as surface::BlockLayout numbers them), one each; empty where nothing is gone.
   std::vector<uint8_t> levels(std::span<const surface::BlockVertex> vertices, uint32_t block) const;
@@ -29,7 +32,8 @@ class RemovedBone {
  private:
   surface::TwoCoverages sample_at(const Vec3i& voxel) const;
 
-  const voxel::Replica& now_;
+  const voxel::VoxelGrid grid_;
+  const std::vector<uint8_t>& now_;
   surface::BlockLayout layout_;
   std::vector<uint32_t> place_;  ///< per brick: one more than its place in before_, 0 where it is not kept
   std::vector<uint8_t> before_;

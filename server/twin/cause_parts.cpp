@@ -26,6 +26,7 @@ constexpr uint64_t max_voxels = 1u << 30;
 constexpr int max_table_side = 1 << 22;
 constexpr uint64_t max_table_entries = 1u << 24;
 constexpr double max_body_mm = 1000.0;
+constexpr double max_threshold_g_cc = 100.0;
 
 Bytes begin(PartCode code) { return {static_cast<std::byte>(code)}; }
 
@@ -97,6 +98,24 @@ Bytes start_part(const voxel::BoneModel& bone) {
   return out;
 }
 
+Bytes density_part(std::span<const uint8_t> density, double cortical_threshold_g_cc) {
+  Bytes out = begin(PartCode::density);
+  put_field(out, cortical_threshold_g_cc);
+  const size_t bricks = density.size() / brick_voxels;
+  std::vector<uint8_t> is_told(bricks);
+  for (size_t brick = 0; brick < bricks; ++brick) {
+    const auto codes = density.subspan(brick * brick_voxels, brick_voxels);
+    is_told[brick] = std::any_of(codes.begin(), codes.end(), [](uint8_t code) { return code != 0; });
+    out.push_back(static_cast<std::byte>(is_told[brick]));
+  }
+  for (size_t brick = 0; brick < bricks; ++brick) {
+    if (is_told[brick] == 0) continue;
+    const auto codes = std::as_bytes(density.subspan(brick * brick_voxels, brick_voxels));
+    out.insert(out.end(), codes.begin(), codes.end());
+  }
+  return out;
+}
+
 Bytes segment_part(uint32_t first_tick, const shell::SweptProfile& p) {
   Bytes out = begin(PartCode::segment);
   put_field(out, first_tick);
@@ -151,6 +170,27 @@ std::optional<voxel::BoneModel> read_start(std::span<const std::byte> bytes) {
   if (!read_bricks(in, bone) || bone.coverage_hash() != hash) return std::nullopt;
   bone.density = std::vector<uint8_t>(bone.grid.voxel_count());
   return bone;
+}
+
+std::optional<DensityPart> read_density(std::span<const std::byte> bytes, const voxel::VoxelGrid& grid) {
+  FieldReader in(bytes);
+  DensityPart part;
+  in.take(part.cortical_threshold_g_cc);
+  const auto told = in.take_bytes(grid.brick_count());
+  if (!in.fits() || !std::isfinite(part.cortical_threshold_g_cc) ||
+      std::abs(part.cortical_threshold_g_cc) > max_threshold_g_cc)
+    return std::nullopt;
+  part.codes.resize(grid.voxel_count());
+  for (size_t brick = 0; brick < told.size(); ++brick) {
+    const auto kind = std::to_integer<uint8_t>(told[brick]);
+    if (kind > 1) return std::nullopt;
+    if (kind == 0) continue;
+    const auto stored = in.take_bytes(brick_voxels);
+    if (!in.fits()) return std::nullopt;
+    std::memcpy(part.codes.data() + brick * brick_voxels, stored.data(), brick_voxels);
+  }
+  if (!in.rest().empty()) return std::nullopt;
+  return part;
 }
 
 std::optional<SegmentPart> read_segment(std::span<const std::byte> bytes) {

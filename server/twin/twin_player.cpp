@@ -15,6 +15,7 @@ TwinPlayer::Outcome TwinPlayer::take(std::span<const std::byte> part) {
     case PartCode::start: return outcome_ = take_start(bytes);
     case PartCode::segment: return outcome_ = take_segment(bytes);
     case PartCode::ticks: return outcome_ = take_ticks(bytes);
+    case PartCode::density: return outcome_ = take_density(bytes);
     case PartCode::end: return outcome_ = take_end(bytes);
   }
   return outcome_ = Outcome::damaged;
@@ -25,6 +26,14 @@ TwinPlayer::Outcome TwinPlayer::take_start(std::span<const std::byte> bytes) {
   auto bone = read_start(bytes);
   if (!bone) return Outcome::damaged;
   twin_.emplace(*std::move(bone));
+  return Outcome::agrees;
+}
+
+TwinPlayer::Outcome TwinPlayer::take_density(std::span<const std::byte> bytes) {
+  if (!twin_ || has_segment_) return Outcome::damaged;
+  auto density = read_density(bytes, twin_->bone().grid);
+  if (!density) return Outcome::damaged;
+  twin_->tell_density(std::move(density->codes), density->cortical_threshold_g_cc);
   return Outcome::agrees;
 }
 
@@ -54,6 +63,23 @@ TwinPlayer::Outcome TwinPlayer::take_end(std::span<const std::byte> bytes) {
   ended_ = true;
   recorded_ticks_ = end->recorded_ticks;
   return twin_->bone().coverage_hash() == end->coverage_hash ? Outcome::agrees : Outcome::differs;
+}
+
+std::optional<size_t> TwinPlayer::keep_moment() {
+  if (!twin_ || outcome_ != Outcome::agrees || ended_) return std::nullopt;
+  const size_t moment = twin_->keep_moment();
+  if (moment == moments_.size()) moments_.push_back({agreed_ticks_, has_segment_});
+  return moment;
+}
+
+bool TwinPlayer::go_to(size_t moment) {
+  if (moment >= moments_.size() || outcome_ == Outcome::damaged) return false;
+  twin_->go_to(moment);
+  agreed_ticks_ = moments_[moment].agreed_ticks;
+  has_segment_ = moments_[moment].has_segment;
+  ended_ = false;
+  outcome_ = Outcome::agrees;
+  return true;
 }
 
 }  // namespace ream::twin

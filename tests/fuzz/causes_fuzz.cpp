@@ -47,6 +47,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   fuzz::Input input(data, size);
   const int good = input.byte() % 3;
   twin::TwinPlayer player;
+  size_t moments = 0;
   if (good > 0) player.take(start);
   if (good > 1) player.take(segment);
   while (!input.empty()) {
@@ -54,6 +55,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const auto before = player.agreed_ticks();
     player.take(std::as_bytes(std::span(part.data(), part.size())));
     fuzz::require(player.agreed_ticks() >= before, "ticks were taken back");
+    if (part.size() % 5 == 0) moments += player.keep_moment() == moments;
+    if (part.size() % 7 == 0)
+      fuzz::require(!player.go_to(part.size()) || part.size() < moments, "a moment that was not kept");
   }
   if (twin::BoneTwin* twin = player.twin())
     for (const uint32_t block : twin->take_changed_blocks()) twin->surface_of(block);

@@ -9,13 +9,13 @@
 #include <optional>
 #include <thread>
 
-#include "app/cli/serve_options.hpp"
 #include "app/numbers.hpp"
 #include "app/open_database.hpp"
 #include "core/clock.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/file_lock.hpp"
+#include "core/page_folder.hpp"
 #include "gpu/device.hpp"
 #include "isolation/isolated_job.hpp"
 #include "isolation/sandbox.hpp"
@@ -41,7 +41,7 @@ constexpr size_t timer_ticks = 1000;
 constexpr double late_us = 500.0;
 
 Finding examine_page(const DoctorRequest& request) {
-  const fs::path folder = web_folder(request.web);
+  const fs::path folder = page_folder(request.web);
   if (folder.empty())
     return {"page", State::remark, "The page is not built; only the API would be served.", "scripts/build"};
   return {"page", State::good, "The page is in " + folder.string() + ".", ""};

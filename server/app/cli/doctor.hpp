@@ -11,7 +11,7 @@ namespace ream::app {
 struct DoctorRequest {
   std::filesystem::path data;  ///< of data_folder()
   std::string db;              ///< as for open_database()
-  std::filesystem::path web;   ///< as for web_folder()
+  std::filesystem::path web;   ///< as for page_folder()
   ServerAddress address;
 };
 

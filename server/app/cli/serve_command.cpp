@@ -22,6 +22,7 @@
 #include "core/interrupt.hpp"
 #include "core/leftovers.hpp"
 #include "core/log.hpp"
+#include "core/page_folder.hpp"
 #include "core/version.hpp"
 #include "device/registry/device_registry.hpp"
 #include "isolation/sandbox.hpp"
@@ -106,7 +107,8 @@ void serve(const ServeOptions& options, const GlobalOptions& global) {
   context.backend = options.backend;
   context.realtime = realtime_from_text(options.realtime);
   api::ServerOptions server_options;
-  server_options.web_folder = web_folder(options.web);
+  server_options.web_folder = page_folder(options.web);
+  context.page = server_options.web_folder;
   if (server_options.web_folder.empty())
     log::warn("the page is not built; only the API is served (scripts/build makes the page)");
   server_options.listen = listen_options(options.address, has_users(global.db, context.data));

@@ -20,21 +20,6 @@ std::string device_names() {
 
 }  // namespace
 
-std::filesystem::path web_folder(const std::filesystem::path& chosen) {
-  std::error_code failed;
-  if (!chosen.empty()) {
-    if (!std::filesystem::is_regular_file(chosen / "index.html", failed))
-      throw Error(ErrorKind::not_found,
-                  "no index.html in " + chosen.string() + "; build the page or correct --web");
-    return chosen;
-  }
-  const std::filesystem::path beside =
-      std::filesystem::read_symlink("/proc/self/exe", failed).parent_path().parent_path();
-  for (const std::filesystem::path& folder : {beside / "share/ream/web", beside / "web/dist"})
-    if (std::filesystem::is_regular_file(folder / "index.html", failed)) return folder;
-  return {};
-}
-
 void add_serve_options(CLI::App& command, ServeOptions& options) {
   ServerAddress& address = options.address;
   command.add_option("--host", address.host, "Address to listen on; others than loopback need users and TLS")

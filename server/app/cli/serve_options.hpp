@@ -24,11 +24,6 @@ struct ServeOptions {
   std::vector<std::filesystem::path> plugins;
 };
 
-/// Folder of the built page: `chosen` (--web), else share/ream/web of the place where the program is
-/// installed, else web/dist of the source tree that it was built in. Empty when it is in neither of these.
-/// Error not_found when `chosen` is not empty and has no page.
-std::filesystem::path web_folder(const std::filesystem::path& chosen);
-
 /// Adds them to the command; `options` must outlive it.
 void add_serve_options(CLI::App& command, ServeOptions& options);
 

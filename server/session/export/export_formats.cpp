@@ -12,7 +12,9 @@
 #include "report/deviation_scale.hpp"
 #include "report/report.hpp"
 #include "score/deviation.hpp"
+#include "session/export/cause_export.hpp"
 #include "session/export/reamed_bone.hpp"
+#include "session/export/review_file.hpp"
 #include "session/export/session_bundle.hpp"
 #include "session/export/session_report.hpp"
 #include "session/export/session_tables.hpp"
@@ -172,6 +174,8 @@ const std::vector<ExportFormat>& export_formats() {
        write_bundle},
       {"causes", ".causes", "what computes the bone again anywhere", "application/octet-stream", plain,
        write_causes},
+      {"review", ".html", "review that opens anywhere, without a server", "text/html; charset=utf-8", plain,
+       write_review_file},
   };
   return formats;
 }

@@ -38,6 +38,7 @@ struct ExportRequest {
   std::optional<score::Benchmark> benchmark;  ///< of reports
   bool component_load = false;                ///< of reports
   TracePart part;                             ///< of tables
+  std::filesystem::path page = {};            ///< of review files: as page_folder()
   std::optional<SessionRequest> labels;       ///< trainee, title and so on; none: as in session.json
 };
 

@@ -17,10 +17,6 @@ void write_parquet(const ExportRequest& request, const std::filesystem::path& ou
 /// case is not where the recording says; error as case_of() when it is not where the request says.
 void write_hdf5(const ExportRequest& request, const std::filesystem::path& out, const Progress& progress);
 
-/// What computes the session's bone again anywhere, in a browser too (twin/cause_file.hpp). Errors also:
-/// conflict where bone was removed by decay, or by another physics.
-void write_causes(const ExportRequest& request, const std::filesystem::path& out, const Progress& progress);
-
 /// session.json as whoever asks may know it.
 nlohmann::json labelled_session(const ExportRequest& request, const record::Recording& recording);
 

@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "score/live_score.hpp"
 #include "session/live/stream_messages.hpp"
-#include "session/simulation/reamer.hpp"
+#include "session/replay/recorded_stream.hpp"
 
 namespace ream::session {
 namespace {
@@ -30,7 +30,7 @@ ReplayPicture::ReplayPicture(const record::Recording& recording, const case_::Ca
       publisher_(before.bone, fanout),
       batcher_(fanout) {
   if (native) gauge_.emplace(native);
-  const shell::Tool tool = tool_of_segment(0);
+  const shell::Tool tool = tool_of_segment(recording_, 0);
   hello_.tool = tool.mesh;
   hello_.tool_name = tool.name;
   fanout_.publish_hello(stream::hello_message(hello_));
@@ -159,14 +159,6 @@ void ReplayPicture::publish_history(const std::vector<record::ops::Tick>& histor
   fanout_.publish_telemetry(std::move(batch));
 }
 
-shell::Tool ReplayPicture::tool_of_segment(size_t segment) const {
-  if (segment >= recording_.segments().size())
-    throw Error(ErrorKind::invalid_input,
-                recording_.log().path().string() + " does not say which reamer was used");
-  const record::ops::Segment& s = recording_.segments()[segment];
-  return tool_of({s.tool, axis_from_text(s.tool_axis, recording_.log().path().string()), s.tool_file});
-}
-
 void ReplayPicture::show_tool() {
   const auto& segments = recording_.segments();
   const auto next = std::find_if(segments.begin(), segments.end(), [this](const auto& segment) {
@@ -177,7 +169,7 @@ void ReplayPicture::show_tool() {
   segment_ = now;
   if (before.tool == after.tool && before.tool_axis == after.tool_axis && before.tool_file == after.tool_file)
     return;
-  const shell::Tool tool = tool_of_segment(now);
+  const shell::Tool tool = tool_of_segment(recording_, now);
   hello_.tool = tool.mesh;
   hello_.tool_name = tool.name;
   fanout_.publish_tool(stream::hello_message(hello_), stream::tool_message(tool.mesh, tool.name));

@@ -7,7 +7,6 @@
 #include "record/recorded_bone.hpp"
 #include "score/depth_gauge.hpp"
 #include "session/replay/metrics_timeline.hpp"
-#include "shell/tool.hpp"
 #include "stream/fanout.hpp"
 #include "stream/mesh_publisher.hpp"
 
@@ -61,7 +60,6 @@ class ReplayPicture {
   std::vector<record::ops::Tick> history_before(uint32_t end_tick) const;
   void publish_history(const std::vector<record::ops::Tick>& history);
   const record::ops::Tick& tick_at(uint32_t tick);
-  shell::Tool tool_of_segment(size_t segment) const;
 
   const record::Recording& recording_;
   const Pose world_from_grid_;

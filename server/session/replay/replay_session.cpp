@@ -13,13 +13,12 @@
 #include "score/bone_results.hpp"
 #include "score/metrics.hpp"
 #include "session/folder/session_folder.hpp"
-#include "session/live/stream_messages.hpp"
 #include "session/live/viewer_stream.hpp"
+#include "session/replay/recorded_stream.hpp"
 #include "session/simulation/find_case.hpp"
 #include "session/simulation/recorded_session.hpp"
 #include "session/simulation/recorded_setup.hpp"
 #include "sim/model.hpp"
-#include "sim/settings.hpp"
 
 namespace ream::session {
 namespace {
@@ -29,13 +28,6 @@ constexpr auto metrics_timeout = std::chrono::seconds(1);
 constexpr auto replay_period = std::chrono::milliseconds(10);
 /// A replay that rests tells its viewers so this often, so that a silent link is a broken one.
 constexpr int64_t replay_heartbeat_ns = 500'000'000;
-
-double recorded_force_max_n(const record::Recording& recording) {
-  const std::string place = "the settings in " + recording.log().path().string();
-  const auto settings = parse_json_or_discard(recording.header().settings);
-  if (settings.is_discarded()) throw Error(ErrorKind::invalid_input, place + " is not JSON");
-  return sim::settings_from_json(settings, place).limits.force_max_n;
-}
 
 ReplaySession::Bone bone_before(const record::Recording& recording, const std::filesystem::path& data) {
   if (recording.tick_count() == 0)
@@ -91,15 +83,10 @@ ReplaySession::ReplaySession(const SessionContext& context, const ReplayRequest&
 ReplaySession::~ReplaySession() { stop(); }
 
 stream::HelloInfo ReplaySession::hello() const {
-  const case_::Anatomy anatomy =
-      recording_.header().anatomy.empty() ? case_::Anatomy{} : anatomy_in(recording_);
-  stream::HelloInfo info = make_hello(bone_.start, *bone_.start.plan, {}, anatomy);
+  stream::HelloInfo info = recorded_hello(recording_, bone_.start);
   info.session_id = request_.id;
   info.server_epoch = context_.server_epoch;
-  info.force_scale = recording_.header().force_scale;
-  info.force_max_n = recorded_force_max_n(recording_);
   info.replay_of = request_.blind ? request_.id : request_.replay_of;
-  info.duration_ticks = recording_.tick_count();
   return info;
 }
 
@@ -130,13 +117,7 @@ std::vector<RecordingDamage> ReplaySession::damage() const {
 }
 
 std::vector<ReplayMark> ReplaySession::marks() const {
-  std::vector<ReplayMark> marks;
-  for (const record::ops::Segment& segment : recording_.segments())
-    if (segment.first_tick > 0) marks.push_back({segment.first_tick * tick_s, segment.reason, segment.tool});
-  for (const record::ops::Event& event : recording_.events())
-    marks.push_back({event.tick * tick_s, event.kind, event.words});
-  for (const record::ops::Annotation& annotation : recording_.annotations())
-    marks.push_back({annotation.tick * tick_s, "annotation", annotation.words});
+  std::vector<ReplayMark> marks = recorded_marks(recording_);
   for (const RecordingDamage& damage : damage())
     marks.push_back({damage.after_ticks * tick_s, "damaged", damage.words});
   std::stable_sort(marks.begin(), marks.end(), [](const auto& a, const auto& b) { return a.at_s < b.at_s; });

@@ -30,8 +30,11 @@ class RecordingMeasurer final : public SessionMeasurer {
 };
 
 /// What an order asks for; everything in it goes by ids.
-ExportRequest export_request_of(const ExportFormat& format, const ExportOrder& order, const fs::path& data) {
+ExportRequest export_request_of(const ExportFormat& format, const ExportOrder& order,
+                                const SessionContext& context) {
+  const fs::path& data = context.data;
   ExportRequest request;
+  request.page = context.page;
   request.recording = recording_file(sessions_folder(data) / order.session.id);
   request.data = data;
   request.part = order.part;
@@ -76,12 +79,12 @@ void SimulationEngine::write_deviations(const fs::path& folder, const fs::path& 
 }
 
 void SimulationEngine::check_export(const ExportFormat& format, const ExportOrder& order) const {
-  export_request_of(format, order, context_.data);
+  export_request_of(format, order, context_);
 }
 
 void SimulationEngine::write_export(const ExportFormat& format, const ExportOrder& order, const fs::path& out,
                                     const Progress& progress) const {
-  format.write(export_request_of(format, order, context_.data), out, progress);
+  format.write(export_request_of(format, order, context_), out, progress);
 }
 
 }  // namespace ream::session

@@ -23,9 +23,19 @@ std::vector<std::byte>& input() {
   return bytes;
 }
 
-ream::surface::BlockMesh& mesh() {
-  static ream::surface::BlockMesh last;
+ream::twin::MarkedSurface& surface() {
+  static ream::twin::MarkedSurface last;
   return last;
+}
+
+ream::TriangleMesh& whole() {
+  static ream::TriangleMesh last;
+  return last;
+}
+
+const std::vector<uint8_t>& marks(uint32_t kind) {
+  const ream::twin::MarkedSurface& of = surface();
+  return kind == 0 ? of.classes : kind == 1 ? of.removed : of.densities;
 }
 
 std::vector<uint32_t>& blocks() {
@@ -78,11 +88,40 @@ REAM_EXPORT(twin_blocks_at) uint32_t twin_blocks_at() { return address_of(blocks
 /// Makes the surface of a block: how many indices it has (surface/block_mesh.hpp). 0 also for no such block.
 REAM_EXPORT(twin_make_surface) uint32_t twin_make_surface(uint32_t block) {
   ream::twin::BoneTwin* twin = player().twin();
-  mesh() = twin && block < twin->block_count() ? twin->surface_of(block) : ream::surface::BlockMesh();
-  return static_cast<uint32_t>(mesh().indices.size());
+  surface() = twin && block < twin->block_count() ? twin->surface_of(block) : ream::twin::MarkedSurface();
+  return static_cast<uint32_t>(surface().mesh.indices.size());
 }
-REAM_EXPORT(twin_indices_at) uint32_t twin_indices_at() { return address_of(mesh().indices); }
-REAM_EXPORT(twin_vertices_at) uint32_t twin_vertices_at() { return address_of(mesh().vertices); }
+REAM_EXPORT(twin_indices_at) uint32_t twin_indices_at() { return address_of(surface().mesh.indices); }
+REAM_EXPORT(twin_vertices_at) uint32_t twin_vertices_at() { return address_of(surface().mesh.vertices); }
 REAM_EXPORT(twin_vertex_count) uint32_t twin_vertex_count() {
-  return static_cast<uint32_t>(mesh().vertices.size());
+  return static_cast<uint32_t>(surface().mesh.vertices.size());
 }
+/// What is known of its vertices, as MeshBlock of proto/stream.fbs: 0 classes, 1 removed, 2 densities.
+REAM_EXPORT(twin_marks_at) uint32_t twin_marks_at(uint32_t kind) { return address_of(marks(kind)); }
+REAM_EXPORT(twin_marks_bytes) uint32_t twin_marks_bytes(uint32_t kind) {
+  return static_cast<uint32_t>(marks(kind).size());
+}
+
+/// Makes the whole surface (BoneTwin::whole_surface): how many vertices it has. Three floats a vertex and normal,
+/// three u32 a triangle.
+REAM_EXPORT(twin_make_whole_surface) uint32_t twin_make_whole_surface() {
+  whole() = player().twin() ? player().twin()->whole_surface() : ream::TriangleMesh();
+  return static_cast<uint32_t>(whole().vertices_mm.size());
+}
+REAM_EXPORT(twin_whole_vertices_at) uint32_t twin_whole_vertices_at() {
+  return address_of(whole().vertices_mm);
+}
+REAM_EXPORT(twin_whole_normals_at) uint32_t twin_whole_normals_at() { return address_of(whole().normals); }
+REAM_EXPORT(twin_whole_triangle_count) uint32_t twin_whole_triangle_count() {
+  return static_cast<uint32_t>(whole().triangles.size());
+}
+REAM_EXPORT(twin_whole_triangles_at) uint32_t twin_whole_triangles_at() {
+  return address_of(whole().triangles);
+}
+
+/// TwinPlayer::keep_moment; all bits set where there is none.
+REAM_EXPORT(twin_keep_moment) uint32_t twin_keep_moment() {
+  return static_cast<uint32_t>(player().keep_moment().value_or(UINT32_MAX));
+}
+/// TwinPlayer::go_to: 1 or 0.
+REAM_EXPORT(twin_go_to) uint32_t twin_go_to(uint32_t moment) { return player().go_to(moment); }

@@ -58,7 +58,7 @@ void expect_same_bits(const nlohmann::json& browsers, const std::filesystem::pat
   SurfaceHash surface;
   size_t triangles = 0;
   for (const uint32_t block : player.twin()->take_changed_blocks()) {
-    const surface::BlockMesh mesh = player.twin()->surface_of(block);
+    const surface::BlockMesh mesh = player.twin()->surface_of(block).mesh;
     surface.add(mesh.vertices);
     surface.add(mesh.indices);
     triangles += mesh.indices.size() / 3;
@@ -86,7 +86,7 @@ TEST(BrowserTwin, HasThemWithASecondReamer) {
 }
 
 std::filesystem::path file_of(const std::vector<twin::Bytes>& parts, const TemporaryFolder& folder) {
-  twin::CauseFileWriter writer;
+  twin::PartFileWriter writer(twin::cause_file_magic, twin::cause_file_revision);
   for (const twin::Bytes& part : parts) writer.add(part);
   auto path = folder.path() / "parts.causes";
   write_file_atomically(path, writer.finish());

@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "core/file.hpp"
-#include "session/export/session_tables.hpp"
+#include "session/export/cause_export.hpp"
 #include "support/recorded_reaming.hpp"
-#include "twin/cause_file.hpp"
+#include "twin/part_file.hpp"
 
 namespace ream::test {
 
 /// The parts of a file of causes, read by zlib's own reader of files; throws where it is not laid out as
-/// CauseFileWriter says.
+/// PartFileWriter says.
 inline std::vector<twin::Bytes> parts_of(const std::filesystem::path& path) {
   gzFile in = ::gzopen(path.c_str(), "rb");
   if (!in) throw std::runtime_error("cannot open " + path.string());

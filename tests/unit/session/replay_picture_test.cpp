@@ -4,6 +4,7 @@
 
 #include "core/clock.hpp"
 #include "core/error.hpp"
+#include "session/replay/recorded_stream.hpp"
 #include "stream/fanout.hpp"
 #include "support/damage.hpp"
 #include "support/recorded_cutting.hpp"
@@ -185,6 +186,44 @@ TEST_F(ReplayPictureTest, AnyMomentLooksAsItDidForwardsAndBackwards) {
   EXPECT_EQ(picture_->bone_hash(), session_.bone.coverage_hash());
   expect_bone_as_it_was();
   EXPECT_TRUE(viewer_.always_replaying);
+}
+
+/// What a page without a server shows is what a replay shows.
+TEST_F(ReplayPictureTest, TheStreamOfAFileSaysTheSame) {
+  native_ = session_native();
+  open();
+  constexpr uint32_t interval_ticks = 20;
+  stream::HelloInfo hello;
+  hello.grid = before_.bone.grid;
+  const std::vector<RecordedMessage> messages =
+      recorded_stream(*recording_, before_, native_, hello, interval_ticks, no_progress);
+  ASSERT_NE(wire::GetServerMessage(messages.front().message->data())->body_as_Hello(), nullptr);
+  std::string tool = "sphere 10";
+  uint32_t next = 0, compared = 0;
+  for (const RecordedMessage& each : std::span(messages).subspan(1)) {
+    const wire::ServerMessage* m = wire::GetServerMessage(each.message->data());
+    if (const wire::ToolChange* change = m->body_as_ToolChange()) {
+      tool = change->tool_name()->str();
+      EXPECT_EQ(each.at_ticks, reamer_changed_at + 1);
+      continue;
+    }
+    const wire::Telemetry* t = m->body_as_Telemetry();
+    ASSERT_NE(t, nullptr);
+    EXPECT_EQ(each.at_ticks, std::min(next, ticks_in_all));
+    next = each.at_ticks + interval_ticks;
+    if (each.at_ticks % 300 != 0 && each.at_ticks != ticks_in_all) continue;
+    ++compared;
+    jump(each.at_ticks);
+    EXPECT_EQ(t->playback()->position_ticks(), viewer_.position_ticks);
+    EXPECT_EQ(t->state(), wire::SessionState::replaying);
+    EXPECT_EQ(tool, viewer_.tool) << each.at_ticks;
+    EXPECT_FLOAT_EQ(t->removed_volume_mm3(), viewer_.removed_mm3) << each.at_ticks;
+    EXPECT_FLOAT_EQ(t->depth_mm(), viewer_.depth_mm) << each.at_ticks;
+    if (each.at_ticks > 0) EXPECT_EQ(t->tick(), each.at_ticks - 1);
+  }
+  EXPECT_GT(compared, 10u);
+  EXPECT_EQ(next, ticks_in_all + interval_ticks) << "the last moment, too";
+  EXPECT_EQ(tool, "sphere 8");
 }
 
 TEST_F(ReplayPictureTest, PlayingShowsEveryTickOnceAndTheBoneWithIt) {

@@ -71,10 +71,31 @@ TEST(CauseParts, ComeBackAsTheyWere) {
   }
 }
 
+TEST(CauseParts, DensityComesBack) {
+  const voxel::VoxelGrid grid = bone().grid;
+  std::vector<uint8_t> density(grid.voxel_count());
+  for (size_t i = 0; i < density.size(); ++i)
+    if (i / voxel::brick_voxels % 3 == 1) density[i] = static_cast<uint8_t>(i % 251);
+  const Bytes part = twin::density_part(density, 1.25);
+  const auto read = twin::read_density(without_code(part), grid);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->cortical_threshold_g_cc, 1.25);
+  EXPECT_EQ(read->codes, density);
+  EXPECT_LT(part.size(), density.size() / 2) << "bricks of zeros are left out";
+  EXPECT_FALSE(twin::read_density(without_code(part).first(part.size() - 2), grid));
+  voxel::VoxelGrid other = grid;
+  other.dims.z() *= 2;
+  EXPECT_FALSE(twin::read_density(without_code(part), other)) << "of another grid";
+}
+
 TEST(CauseParts, ComeInOrderOrNotAtAll) {
   const Bytes start = twin::start_part(bone()), segment = twin::segment_part(0, profile());
   const Bytes ticks = twin::ticks_part(some_ticks(0, 3), 1);
   EXPECT_EQ(outcome_of({segment}), Outcome::damaged) << "no bone yet";
+  const Bytes density = twin::density_part(std::vector<uint8_t>(bone().grid.voxel_count(), 90), 1.1);
+  EXPECT_EQ(outcome_of({density}), Outcome::damaged) << "no bone yet";
+  EXPECT_EQ(outcome_of({start, density, segment}), Outcome::agrees);
+  EXPECT_EQ(outcome_of({start, segment, density}), Outcome::damaged) << "it comes before the tool";
   EXPECT_EQ(outcome_of({start, ticks}), Outcome::damaged) << "no tool yet";
   EXPECT_EQ(outcome_of({start, start}), Outcome::damaged);
   EXPECT_EQ(outcome_of({start, twin::segment_part(5, profile())}), Outcome::damaged) << "begins later";

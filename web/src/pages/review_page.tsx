@@ -16,21 +16,31 @@ import { ScorePanel } from '../panels/review/score_panel';
 import { VerificationPanel } from '../panels/review/verification_panel';
 import { useIdentity } from '../panels/common/site_nav';
 import { useShownName } from '../panels/common/use_shown_name';
+import type { ReviewSession } from '../state/review/review_session';
 import type { Route } from '../state/route';
 import { ReviewWorkspace } from '../panels/review/review_workspace';
+import { reviewKeys } from '../panels/review/review_keys';
+import { servedSources } from '../panels/review/served_sources';
+import { servedVerification } from '../twin/served_verification';
+import { ReviewApi } from '../wire/review_api';
 
 /** One session after its end, or two beside each other. */
 export function ReviewPage({ route }: { route: Route & { kind: 'review' } }) {
   const identity = useIdentity();
   const may = identity.may.value;
-  const workspace = useMemo(() => new ReviewWorkspace(window.location.origin, may), [may]);
+  const { origin } = window.location;
+  const review = useMemo(() => new ReviewApi(origin), [origin]);
+  const workspace = useMemo(
+    () => new ReviewWorkspace(() => servedSources(origin, review, may), may.ream),
+    [origin, review, may],
+  );
   useEffect(() => () => workspace.dispose(), [workspace]);
   useEffect(() => {
     workspace.show(route.beside === null ? [route.id] : [route.id, route.beside]);
   }, [workspace, route.id, route.beside]);
   const person = identity.userId.value ?? 'anyone';
   useEffect(() => workspace.settings.view.keepFor(`${person}.review`, window.localStorage), [workspace, person]);
-  useLiveKeys(useMemo(() => keysOf(workspace), [workspace]));
+  useLiveKeys(useMemo(() => reviewKeys(workspace), [workspace]));
   const panes = workspace.panes.value;
   const first = panes[0]?.session;
   useShownName(first?.details.value?.title || (first?.id ?? ''));
@@ -51,11 +61,11 @@ export function ReviewPage({ route }: { route: Route & { kind: 'review' } }) {
         <MapPanel workspace={workspace} />
         <ScorePanel panes={panes} />
         {panes.map(({ session }, i) => (
-          <FilesPanel key={session.id + String(i)} session={session} review={workspace.review} />
+          <FilesPanel key={session.id + String(i)} session={session} review={review} />
         ))}
         {may.ream &&
           panes.map(({ session }, i) => (
-            <VerificationPanel key={session.id + String(i)} session={session} review={workspace.review} />
+            <ServedVerification key={session.id + String(i)} session={session} review={review} />
           ))}
         <ComparePanel panes={panes} />
         <KeysPanel />
@@ -64,17 +74,7 @@ export function ReviewPage({ route }: { route: Route & { kind: 'review' } }) {
   );
 }
 
-function keysOf(workspace: ReviewWorkspace): Record<string, () => void> {
-  const { settings } = workspace;
-  const session = () => workspace.panes.peek()[settings.active.peek()]?.session;
-  return {
-    k: () => session()?.togglePlay(),
-    ',': () => session()?.seekEvent(false),
-    '.': () => session()?.seekEvent(true),
-    b: () => session()?.toggleBefore(),
-    d: () => session()?.nextMap(),
-    e: () => (settings.measuring.value = !settings.measuring.peek()),
-    t: () => (settings.slicesOpen.value = !settings.slicesOpen.peek()),
-    q: () => (settings.active.value = workspace.panes.peek().length - 1 - settings.active.peek()),
-  };
+function ServedVerification({ session, review }: { session: ReviewSession; review: ReviewApi }) {
+  const sources = useMemo(() => servedVerification(review, session.id), [review, session.id]);
+  return <VerificationPanel session={session} sources={sources} />;
 }

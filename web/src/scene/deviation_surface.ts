@@ -2,7 +2,7 @@ import { DataTexture, Int8BufferAttribute, Mesh, type MeshStandardMaterial, Near
 
 import { type MapScale, paletteOf } from '../state/review/deviation_scale';
 import type { DeviationCode } from '../wire/review_api';
-import type { SortedSurface } from '../wire/surface_worker';
+import type { SortedSurface } from '../wire/sorted_surface';
 import { boneMaterial, lookOfBone } from './bone_material';
 import type { BoneReplacement } from './bone_view';
 import { haveBoxes } from './line_hits';

@@ -5,7 +5,7 @@ import { headsetMessage } from './headset_text';
 import type { ReviewSession } from '../state/review/review_session';
 import type { ReviewSettings } from '../state/review/review_settings';
 import { toolAction } from '../state/tool_action';
-import type { SortedSurface } from '../wire/surface_worker';
+import type { SortedSurface } from '../wire/sorted_surface';
 import { pickBone } from './bone_picker';
 import { DeviationSurface } from './deviation_surface';
 import { MeasureMarks } from './measure_marks';

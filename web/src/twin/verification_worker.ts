@@ -1,11 +1,11 @@
 /** Worker: computes a session's bone again from a file of causes, off the page's thread. */
-import { CauseFileError, causeParts } from './cause_file';
+import { causeFile, PartFileError, partsOf } from './part_file';
 import { type Outcome, TwinModule } from './twin_module';
 
-/** Page to worker: what is computed, and by what. */
+/** Page to worker: what is computed, and by what; each where it is, or itself. */
 export interface VerificationRequest {
-  causes: string;
-  module: string;
+  causes: string | Blob;
+  module: string | Blob;
 }
 
 /** How a computation ended: `ticks` agreed before anything else was found, of `recordedTicks` where that is known. */
@@ -30,7 +30,8 @@ const reportEveryMs = 1000;
 class NotFetched extends Error {}
 
 /** Whole, so that a connection that breaks is not taken for a damaged file. */
-async function fetched(url: string): Promise<Blob> {
+async function fetched(url: string | Blob): Promise<Blob> {
+  if (typeof url !== 'string') return url;
   try {
     const response = await fetch(url);
     if (response.ok) return await response.blob();
@@ -46,7 +47,7 @@ async function verified({ causes, module }: VerificationRequest): Promise<Verifi
   const result = (outcome: Outcome) => ({ outcome, ticks: twin.agreedTicks, recordedTicks: twin.recordedTicks });
   let told = performance.now();
   try {
-    for await (const part of causeParts(file.stream())) {
+    for await (const part of partsOf(causeFile, file.stream())) {
       const outcome = twin.take(part);
       if (outcome !== 'agrees') return result(outcome);
       if (performance.now() - told < reportEveryMs) continue;
@@ -55,7 +56,7 @@ async function verified({ causes, module }: VerificationRequest): Promise<Verifi
     }
   } catch (error) {
     // The one of what is read here, the other of DecompressionStream.
-    if (!(error instanceof CauseFileError || error instanceof TypeError)) throw error;
+    if (!(error instanceof PartFileError || error instanceof TypeError)) throw error;
     console.error(error);
     return result('damaged');
   }

@@ -5,7 +5,7 @@ import { problemText } from './problem_text';
 
 export const mapNames = ['plan', 'implant', 'wall'] as const;
 export type MapName = (typeof mapNames)[number];
-export const exportFormats = ['html', 'pdf', 'load', 'csv', 'parquet', 'stl', 'ply', 'glb'] as const;
+export const exportFormats = ['html', 'pdf', 'load', 'csv', 'parquet', 'stl', 'ply', 'glb', 'review'] as const;
 export type ExportFormat = (typeof exportFormats)[number];
 
 /** What a byte of a deviation map means; as the server says with the map. */

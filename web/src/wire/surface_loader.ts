@@ -1,6 +1,7 @@
 import { askWorker } from './ask_worker';
 import { ApiError, credentials } from './rest';
-import type { SortedSurface, SurfaceReport, SurfaceRequest } from './surface_worker';
+import type { SortedSurface } from './sorted_surface';
+import type { SurfaceReport, SurfaceRequest } from './surface_worker';
 
 /**
  * Fetches the surface that a session left, in a worker that lives as long. Throws ApiError in the server's words, and

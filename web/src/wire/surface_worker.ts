@@ -1,20 +1,13 @@
 /** Worker: fetches the surface that a session left, reads it and sorts its triangles for picking, off the page's thread. */
-import { BufferAttribute, BufferGeometry } from 'three';
-import { MeshBVH } from 'three-mesh-bvh';
-
 import { type PendingJob, fetchOnceReady } from './job_wait';
-import { readPly, type Surface } from './ply';
+import { readPly } from './ply';
 import { ApiError } from './rest';
+import { sortedSurface, type SortedSurface } from './sorted_surface';
 
 /** Page to worker: fetch this surface; `jobs` is where work is asked after. */
 export interface SurfaceRequest {
   url: string;
   jobs: string;
-}
-
-/** A surface and the tree of boxes around its triangles. */
-export interface SortedSurface extends Surface {
-  boxes: ArrayBuffer[];
 }
 
 /** Worker to page; the last is the surface or why there is none. */
@@ -42,15 +35,8 @@ async function fetchSurface({ url, jobs }: SurfaceRequest): Promise<void> {
     getJob,
     (share) => page.postMessage({ kind: 'making', share }),
   );
-  const surface = readPly(await response.arrayBuffer());
-  const { positions, normals, indices } = surface;
-  const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new BufferAttribute(positions, 3));
-  geometry.setIndex(new BufferAttribute(indices, 1));
-  // Triangles are put into another order, their corners are not.
-  const { roots } = MeshBVH.serialize(new MeshBVH(geometry), { cloneBuffers: false });
-  const report: SurfaceReport = { kind: 'surface', surface: { ...surface, boxes: roots } };
-  page.postMessage(report, [positions.buffer, normals.buffer, indices.buffer, ...roots]);
+  const { surface, buffers } = sortedSurface(readPly(await response.arrayBuffer()));
+  page.postMessage({ kind: 'surface', surface }, buffers);
 }
 
 self.onmessage = (event: MessageEvent<SurfaceRequest>) => {

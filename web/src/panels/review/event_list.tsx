@@ -7,14 +7,12 @@ import { messageOf } from '../../wire/rest';
 import { appText } from '../../text/app_text';
 import { Message } from '../common/fields';
 import { minutes } from '../../text/format';
-import { useIdentity } from '../common/site_nav';
 import { Button } from '../common/button';
 
 /** What happened, to be gone to one by one; and a new annotation of the present moment. */
-export function EventList({ session }: { session: ReviewSession }) {
+export function EventList({ session, mayAnnotate }: { session: ReviewSession; mayAnnotate: boolean }) {
   const marks = session.marks.value;
   const usable = session.store.playback.value !== null;
-  const may = useIdentity().may.value;
   return (
     <div class="events">
       {([false, true] as const).map((forwards) => (
@@ -46,7 +44,7 @@ export function EventList({ session }: { session: ReviewSession }) {
               </li>
             ))}
           </ol>
-          {may.ream && <AnnotationForm session={session} />}
+          {mayAnnotate && <AnnotationForm session={session} />}
         </div>
       </details>
     </div>

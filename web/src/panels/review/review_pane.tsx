@@ -43,7 +43,7 @@ export function ReviewPane({ pane, place, workspace }: Parts) {
       <div class="pane-head">
         {several && <PaneTitle place={place} workspace={workspace} />}
         <MomentBar session={session} />
-        <EventList session={session} />
+        <EventList session={session} mayAnnotate={workspace.mayAnnotate} />
       </div>
       <PanePicture pane={pane} workspace={workspace} />
       <PlaybackBar store={session.store} player={session.player} marks={session.marks.value}>
@@ -139,7 +139,8 @@ function PanePicture({ pane, workspace }: { pane: Pane; workspace: ReviewWorkspa
           </button>
         </p>
       )}
-      {workspace.settings.slicesOpen.value &&
+      {liveCase !== null &&
+        workspace.settings.slicesOpen.value &&
         slices.show(({ LiveSlicesPanel }) => <LiveSlicesPanel store={store} liveCase={liveCase} />)}
     </div>
   );

@@ -10,20 +10,23 @@ import { ViewTools } from '../picture/view_tools';
 export function ReviewTools({ workspace }: { workspace: ReviewWorkspace }) {
   const { settings } = workspace;
   // The other is seen from where the first one is.
-  const scene = workspace.panes.value[0]?.view.scene;
-  if (scene === undefined) return null;
+  const first = workspace.panes.value[0];
+  if (first === undefined) return null;
+  const { scene } = first.view;
   return (
     <div class="review-tools">
       <ViewTools scene={scene} view={settings.view} reamerShown={settings.reamerShown}>
-        <ViewToggle
-          id="slices"
-          letter="T"
-          hint={liveText.slicesHint}
-          on={settings.slicesOpen.value}
-          onToggle={() => (settings.slicesOpen.value = !settings.slicesOpen.peek())}
-        >
-          {liveText.slices}
-        </ViewToggle>
+        {first.liveCase !== null && (
+          <ViewToggle
+            id="slices"
+            letter="T"
+            hint={liveText.slicesHint}
+            on={settings.slicesOpen.value}
+            onToggle={() => (settings.slicesOpen.value = !settings.slicesOpen.peek())}
+          >
+            {liveText.slices}
+          </ViewToggle>
+        )}
         <ViewToggle
           id="measure"
           letter="E"

@@ -2,22 +2,24 @@ import { signal } from '@preact/signals';
 
 import { SharedCamera } from '../../scene/shared_camera';
 import { ReviewView } from '../../scene/review_view';
-import { LiveCase } from '../../state/live_case';
-import { Surroundings } from '../../state/surroundings';
-import type { Permissions } from '../../state/permissions';
-import { ReviewSession } from '../../state/review/review_session';
+import type { LiveCase } from '../../state/live_case';
+import { ReviewSession, type ReviewSources } from '../../state/review/review_session';
 import { ReviewSettings } from '../../state/review/review_settings';
-import { Api } from '../../wire/api';
-import { ReviewApi } from '../../wire/review_api';
-import { WorkerStreamSocket } from '../../wire/stream_socket';
-import { MeshLoader } from '../../wire/mesh_loader';
-import { loadSurface } from '../../wire/surface_loader';
+
+/** What a session that is reviewed comes from, as long as it is shown. */
+export interface OpenSources {
+  sources: ReviewSources;
+  /** What is shown beside the session itself, once there is a picture. */
+  follow?(session: ReviewSession, view: ReviewView): { liveCase: LiveCase; dispose(): void };
+  dispose(): void;
+}
 
 /** One session that is reviewed, with its picture. */
 export interface Pane {
   session: ReviewSession;
   view: ReviewView;
-  liveCase: LiveCase;
+  /** Null: nothing is known of the case beside the session, so that there are no slices of it. */
+  liveCase: LiveCase | null;
   close(): void;
 }
 
@@ -25,15 +27,12 @@ export interface Pane {
 export class ReviewWorkspace {
   readonly settings = new ReviewSettings();
   readonly panes = signal<readonly Pane[]>([]);
-  readonly review: ReviewApi;
   private readonly camera = new SharedCamera();
 
   constructor(
-    private readonly origin: string,
-    private readonly may: Permissions,
-  ) {
-    this.review = new ReviewApi(origin);
-  }
+    private readonly openSources: (id: string) => OpenSources,
+    readonly mayAnnotate: boolean,
+  ) {}
 
   /** What stays in its place stays as it is. */
   show(ids: readonly string[]): void {
@@ -55,35 +54,17 @@ export class ReviewWorkspace {
 
   private open(id: string): Pane {
     const view = new ReviewView(this.settings, this.camera);
-    const { review } = this;
-    // What is measured here is measured on all that there is.
-    const socket = new WorkerStreamSocket(false);
-    const sources = {
-      api: new Api(this.origin),
-      review,
-      socket,
-      surface: (of: string, onProgress: (share: number) => void, abort: AbortSignal) =>
-        loadSurface({ url: review.meshUrl(of), jobs: review.jobsUrl() }, onProgress, abort),
-      mayReadTrace: this.may.ream,
-    };
-    const session = new ReviewSession(id, sources, view.scene);
+    const opened = this.openSources(id);
+    const session = new ReviewSession(id, opened.sources, view.scene);
     view.follow(session, () => this.panes.value[0]?.view === view);
     session.start();
-    const mayRead = () => this.may.readCases;
-    const liveCase = new LiveCase(session.store, mayRead, this.origin);
-    const surroundings = new Surroundings(
-      session.store,
-      view.scene,
-      new MeshLoader(),
-      () => mayRead() && view.scene.quality.full.value,
-      this.origin,
-    );
+    const beside = opened.follow?.(session, view) ?? null;
     const close = () => {
-      surroundings.dispose();
+      beside?.dispose();
       session.dispose();
       view.dispose();
-      socket.dispose();
+      opened.dispose();
     };
-    return { session, view, liveCase, close };
+    return { session, view, liveCase: beside?.liveCase ?? null, close };
   }
 }

@@ -3,14 +3,12 @@ import { useEffect, useRef } from 'preact/hooks';
 import { reviewText } from '../../text/review_text';
 import type { ReviewSession } from '../../state/review/review_session';
 import { excessN, shareOf, thrustLine } from '../../state/review/timeline';
-import { useIdentity } from '../common/site_nav';
 
 /** The chart reaches at least this far, so that gentle sessions look gentle. */
 const reachesN = 100;
 
 /** The thrust over the whole session, above its timeline. */
 export function ThrustChart({ session }: { session: ReviewSession }) {
-  const may = useIdentity().may.value;
   const canvas = useRef<HTMLCanvasElement>(null);
   const trace = session.trace.value;
   const durationS = session.durationS.value;
@@ -53,11 +51,11 @@ export function ThrustChart({ session }: { session: ReviewSession }) {
       scheme.removeEventListener('change', draw);
     };
   }, [trace, durationS, mostN]);
-  const problem = !may.ream ? reviewText.noTraceForViewers : session.traceProblem.value;
+  const problem = !session.mayReadTrace ? reviewText.noTraceForViewers : session.traceProblem.value;
   if (trace === null)
     return problem === null ? null : (
       <p class="thrust-none soft" data-testid="no-trace">
-        {may.ream ? reviewText.noTrace(problem) : problem}
+        {session.mayReadTrace ? reviewText.noTrace(problem) : problem}
       </p>
     );
   return (

@@ -1,27 +1,26 @@
 import { useEffect, useMemo } from 'preact/hooks';
 
 import type { ReviewSession } from '../../state/review/review_session';
-import { SessionVerification, type VerificationState } from '../../state/review/session_verification';
+import { SessionVerification, type VerificationSources, type VerificationState } from '../../state/review/session_verification';
 import { percent, sentence } from '../../text/format';
 import { reviewText } from '../../text/review_text';
 import type { Verification } from '../../twin/verification_worker';
-import { verify } from '../../twin/verify';
-import type { ReviewApi } from '../../wire/review_api';
 import { Button } from '../common/button';
 
-/** Has this browser compute a session's bone again from what was recorded. */
-export function VerificationPanel({
-  session,
-  review,
-}: {
+interface Parts {
   session: ReviewSession;
-  review: Pick<ReviewApi, 'exported'>;
-}) {
+  sources: VerificationSources;
+  /** Without being asked to. */
+  atOnce?: boolean;
+}
+
+/** Has this browser compute a session's bone again from what was recorded. */
+export function VerificationPanel({ session, sources, atOnce = false }: Parts) {
   const { id } = session;
-  const verification = useMemo(
-    () => new SessionVerification({ causes: (onProgress) => review.exported(id, 'causes', onProgress), verify }),
-    [id, review],
-  );
+  const verification = useMemo(() => new SessionVerification(sources), [sources]);
+  useEffect(() => {
+    if (atOnce) void verification.run();
+  }, [verification, atOnce]);
   useEffect(() => () => verification.dispose(), [verification]);
   if (session.error.value !== null) return null;
   const state = verification.state.value;

@@ -4,7 +4,7 @@ import type { Api } from '../../wire/api';
 import { ApiError, messageOf } from '../../wire/rest';
 import { type MapName, mapNames, type ReviewApi } from '../../wire/review_api';
 import type { StreamSocket } from '../../wire/stream_socket';
-import type { SortedSurface } from '../../wire/surface_worker';
+import type { SortedSurface } from '../../wire/sorted_surface';
 import { Remote } from '../remote';
 import { Store } from '../store';
 import type { Triple } from '../../wire/messages';
@@ -55,6 +55,9 @@ export class ReviewSession {
   private disposed = false;
   private traceUnderWay = false;
 
+  get mayReadTrace(): boolean {
+    return this.sources.mayReadTrace;
+  }
   readonly durationS = computed(() => {
     const recorded = (this.store.hello.value?.durationTicks ?? 0) / 1000;
     return recorded > 0 ? recorded : (this.details.value?.duration_s ?? 0);

@@ -13,10 +13,10 @@ export type VerificationState =
   | { kind: 'refused'; reason: string };
 
 export interface VerificationSources {
-  /** Has the file of causes made; where it is. */
-  causes(onProgress: (share: number) => void): Promise<string>;
+  /** Has the file of causes made; where it is, or itself. */
+  causes(onProgress: (share: number) => void): Promise<string | Blob>;
   /** Rejects when it is given up. */
-  verify(causes: string, onTicks: (ticks: number) => void, signal: AbortSignal): Promise<Verification | Obstacle>;
+  verify(causes: string | Blob, onTicks: (ticks: number) => void, signal: AbortSignal): Promise<Verification | Obstacle>;
 }
 
 /** Whether a recorded session, computed again in this browser, leaves the bone that it says it left. */

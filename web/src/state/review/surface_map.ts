@@ -2,7 +2,7 @@ import { batch, signal } from '@preact/signals';
 
 import { ApiError, messageOf } from '../../wire/rest';
 import type { DeviationBytes, MapName } from '../../wire/review_api';
-import type { SortedSurface } from '../../wire/surface_worker';
+import type { SortedSurface } from '../../wire/sorted_surface';
 import { reviewText } from '../../text/review_text';
 import { mapErrorMessage } from './session_error';
 

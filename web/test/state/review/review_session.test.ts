@@ -4,7 +4,7 @@ import { reviewText } from '../../../src/text/review_text';
 import { ReviewSession, type ReviewSources } from '../../../src/state/review/review_session';
 import { ApiError } from '../../../src/wire/api';
 import type { PlaybackChange, Score, Session } from '../../../src/wire/rest_types';
-import type { SortedSurface } from '../../../src/wire/surface_worker';
+import type { SortedSurface } from '../../../src/wire/sorted_surface';
 import { hello, telemetry, wholePicture } from '../../wire/fake_messages';
 import { FakeSocket } from '../../wire/fake_socket';
 import { someAnnotation, someReplay } from '../../wire/some_answers';

@@ -1,14 +1,24 @@
-const magic = 'reamtwin';
-const revision = 1;
-const headBytes = magic.length + 4;
+/** What a file of parts is: the 8 bytes that it begins with, and the revision that is read here. */
+export interface PartFileKind {
+  magic: string;
+  revision: number;
+}
+
+export const causeFile: PartFileKind = { magic: 'reamtwin', revision: 1 };
+
+const magicBytes = 8;
+const headBytes = magicBytes + 4;
 /** No part is larger: a bone of a GiB and a byte for each of its bricks. */
 const maxPartBytes = 2 ** 30 + 2 ** 22;
 
-/** The bytes are no file of causes. */
-export class CauseFileError extends Error {}
+/** The bytes are no such file. */
+export class PartFileError extends Error {}
 
-/** The parts of a file of causes (server/twin/cause_file.hpp), as they come. Throws CauseFileError for another file, and TypeError for one that cannot be unpacked. */
-export async function* causeParts(packed: ReadableStream<Uint8Array<ArrayBuffer>>): AsyncGenerator<Uint8Array> {
+/** The parts of a file (server/twin/part_file.hpp), as they come. Throws PartFileError for another file, and TypeError for one that cannot be unpacked. */
+export async function* partsOf(
+  { magic, revision }: PartFileKind,
+  packed: ReadableStream<Uint8Array<ArrayBuffer>>,
+): AsyncGenerator<Uint8Array> {
   const reader = packed.pipeThrough(new DecompressionStream('gzip')).getReader();
   let rest = new Uint8Array(0);
   /** The next bytes; null at the end of the file, which must not lie within them. */
@@ -17,7 +27,7 @@ export async function* causeParts(packed: ReadableStream<Uint8Array<ArrayBuffer>
     for (let have = rest.length; have < count;) {
       const { value, done } = await reader.read();
       if (done && have === 0) return null;
-      if (done) throw new CauseFileError('the file of causes is cut short');
+      if (done) throw new PartFileError('the file is cut short');
       pieces.push(value);
       have += value.length;
     }
@@ -26,13 +36,13 @@ export async function* causeParts(packed: ReadableStream<Uint8Array<ArrayBuffer>
     return all.subarray(0, count);
   };
   const head = await next(headBytes);
-  if (head === null || new TextDecoder().decode(head.subarray(0, magic.length)) !== magic)
-    throw new CauseFileError('this is no file of causes');
-  if (u32(head, magic.length) !== revision) throw new CauseFileError('the file of causes is of another revision');
+  if (head === null || new TextDecoder().decode(head.subarray(0, magicBytes)) !== magic)
+    throw new PartFileError(`the file does not begin with ${magic}`);
+  if (u32(head, magicBytes) !== revision) throw new PartFileError('the file is of another revision');
   for (let length = await next(4); length !== null; length = await next(4)) {
-    if (u32(length, 0) > maxPartBytes) throw new CauseFileError('a part is larger than any bone');
+    if (u32(length, 0) > maxPartBytes) throw new PartFileError('a part is larger than any bone');
     const part = await next(u32(length, 0));
-    if (part === null) throw new CauseFileError('the file of causes is cut short');
+    if (part === null) throw new PartFileError('the file is cut short');
     yield part;
   }
 }

@@ -2,7 +2,7 @@ import { gzipSync } from 'node:zlib';
 
 import { describe, expect, it } from 'vitest';
 
-import { CauseFileError, causeParts } from '../../src/twin/cause_file';
+import { PartFileError, causeFile, partsOf as readParts } from '../../src/twin/part_file';
 
 const u32 = (value: number) => [value & 255, (value >> 8) & 255, (value >> 16) & 255, value >>> 24];
 const head = [...new TextEncoder().encode('reamtwin'), ...u32(1)];
@@ -21,7 +21,7 @@ function fileOf(bytes: readonly number[], pieceBytes: number): ReadableStream<Ui
 
 async function partsOf(bytes: readonly number[], pieceBytes = 1000): Promise<number[][]> {
   const parts: number[][] = [];
-  for await (const each of causeParts(fileOf(bytes, pieceBytes))) parts.push([...each]);
+  for await (const each of readParts(causeFile, fileOf(bytes, pieceBytes))) parts.push([...each]);
   return parts;
 }
 
@@ -47,7 +47,7 @@ describe('A file of causes', () => {
     ['another file', [...new TextEncoder().encode('reamrec\n'), ...u32(4)]],
     ['of another revision', [...head.slice(0, 8), ...u32(2)]],
   ])('that is %s is refused', async (_, bytes) => {
-    await expect(partsOf(bytes)).rejects.toThrow(CauseFileError);
+    await expect(partsOf(bytes)).rejects.toThrow(PartFileError);
   });
 
   it('that is not packed is refused', async () => {
@@ -58,7 +58,7 @@ describe('A file of causes', () => {
       },
     });
     const take = async () => {
-      for await (const each of causeParts(plain)) void each;
+      for await (const each of readParts(causeFile, plain)) void each;
     };
     await expect(take()).rejects.toThrow();
   });

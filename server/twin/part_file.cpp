@@ -1,4 +1,4 @@
-#include "twin/cause_file.hpp"
+#include "twin/part_file.hpp"
 
 #include <zlib.h>
 
@@ -12,35 +12,36 @@ constexpr size_t output_step = 1 << 16;
 
 }  // namespace
 
-struct CauseFileWriter::Stream {
+struct PartFileWriter::Stream {
   z_stream z{};
 };
 
-CauseFileWriter::CauseFileWriter() : stream_(std::make_unique<Stream>()) {
+PartFileWriter::PartFileWriter(const FileMagic& magic, uint32_t revision)
+    : stream_(std::make_unique<Stream>()) {
   if (::deflateInit2(&stream_->z, Z_BEST_COMPRESSION, Z_DEFLATED, gzip_window_bits, memory_level,
                      Z_DEFAULT_STRATEGY) != Z_OK)
     throw std::bad_alloc();
   Bytes head;
-  for (const char c : cause_file_magic) head.push_back(static_cast<std::byte>(c));
-  record::ops::put_field(head, cause_file_revision);
+  for (const char c : magic) head.push_back(static_cast<std::byte>(c));
+  record::ops::put_field(head, revision);
   put(head, false);
 }
 
-CauseFileWriter::~CauseFileWriter() { ::deflateEnd(&stream_->z); }
+PartFileWriter::~PartFileWriter() { ::deflateEnd(&stream_->z); }
 
-void CauseFileWriter::add(const Bytes& part) {
+void PartFileWriter::add(std::span<const std::byte> part) {
   Bytes length;
   record::ops::put_field(length, static_cast<uint32_t>(part.size()));
   put(length, false);
   put(part, false);
 }
 
-Bytes CauseFileWriter::finish() {
+Bytes PartFileWriter::finish() {
   put({}, true);
   return std::move(out_);
 }
 
-void CauseFileWriter::put(std::span<const std::byte> raw, bool last) {
+void PartFileWriter::put(std::span<const std::byte> raw, bool last) {
   z_stream& z = stream_->z;
   z.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(raw.data()));
   z.avail_in = static_cast<uInt>(raw.size());

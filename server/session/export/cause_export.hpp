@@ -1,0 +1,23 @@
+#pragma once
+#include "case/case.hpp"
+#include "session/export/export_formats.hpp"
+#include "twin/cause_parts.hpp"
+
+namespace ream::session {
+
+/// What the parts of a session's causes are for.
+enum class CauseUse {
+  verification,
+  pictures  ///< also tells what bone is made of that can come to the surface
+};
+
+/// What computes the session's bone again anywhere, in a browser too: a file as proto/causes.md has it. Errors
+/// beside those of the recording and its case: conflict where bone was removed by decay, or by another
+/// physics, or is more than a browser holds.
+twin::Bytes causes_of(const record::Recording& recording, const case_::Case& start, CauseUse use,
+                      const Progress& progress);
+
+/// A form of export_formats().
+void write_causes(const ExportRequest& request, const std::filesystem::path& out, const Progress& progress);
+
+}  // namespace ream::session
