@@ -33,10 +33,15 @@ export function singlePage(file: string, { elements, licences }: Held): Plugin {
         else if (name !== 'third-party.json') throw new Error(`${name} has no place in ${file}`);
         delete bundle[name];
       }
-      html = html.replace(/<script [^>]*src="[^"]*"[^>]*><\/script>\s*/g, '').replace(/<link rel="(stylesheet|modulepreload)"[^>]*>\s*/g, '');
+      html = html
+        .replace(/<script [^>]*src="[^"]*"[^>]*><\/script>\s*/g, '')
+        .replace(/<link rel="(stylesheet|modulepreload)"[^>]*>\s*/g, '');
       scripts += `<script type="text/plain" id="licences">\n${inScript(terms.join('\n'))}</script>\n`;
       const held = Object.entries(elements)
-        .map(([id, path]) => `<script type="application/octet-stream" id="${id}">${readFileSync(path, 'base64')}</script>\n`)
+        .map(
+          ([id, path]) =>
+            `<script type="application/octet-stream" id="${id}">${readFileSync(path, 'base64')}</script>\n`,
+        )
         .join('');
       // By functions: what is put in may have a "$".
       html = html.replace('</head>', () => `${styles}</head>`).replace('</body>', () => `${held}${scripts}</body>`);

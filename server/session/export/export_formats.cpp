@@ -156,6 +156,8 @@ const std::vector<ExportFormat>& export_formats() {
   using enum ExportKind;
   static const std::vector<ExportFormat> formats = {
       {"pdf", ".pdf", "report for printing", "application/pdf", report, write_pdf},
+      {"review", ".review.html", "review as a page that opens anywhere, without a server",
+       "text/html; charset=utf-8", plain, write_review_file},
       {"html", ".html", "report as a page", "text/html; charset=utf-8", report, write_html},
       {"csv", ".csv", "one row a tick", "text/csv; charset=utf-8", table, write_trace},
       {"parquet", ".parquet", "the same with types and units", "application/vnd.apache.parquet", table,
@@ -174,16 +176,19 @@ const std::vector<ExportFormat>& export_formats() {
        write_bundle},
       {"causes", ".causes", "what computes the bone again anywhere", "application/octet-stream", plain,
        write_causes},
-      {"review", ".html", "review that opens anywhere, without a server", "text/html; charset=utf-8", plain,
-       write_review_file},
   };
   return formats;
 }
 
 const ExportFormat& export_format_of(const std::string& name, const fs::path& out) {
   std::string names, endings;
+  // "review.html" by itself is a review, too.
+  const std::string dotted = "." + out.filename().string();
+  const auto ends_in = [&](const std::string& extension) {
+    return out.has_extension() && dotted.ends_with(extension);
+  };
   for (const ExportFormat& format : export_formats()) {
-    if (name.empty() ? out.extension() == format.extension : name == format.name) return format;
+    if (name.empty() ? ends_in(format.extension) : name == format.name) return format;
     names += (names.empty() ? "" : ", ") + format.name;
     endings += (endings.empty() ? "" : ", ") + format.extension + " (" + format.words + ")";
   }

@@ -67,7 +67,7 @@ struct ExportFormat {
   bool is_report() const { return kind == ExportKind::report; }
 };
 
-/// All of them. Where several have an ending in common, the first is what it means by itself.
+/// All of them. Where a file has the endings of several, it is the first of them.
 const std::vector<ExportFormat>& export_formats();
 
 /// By its name, or with an empty one by the ending of a file. Error usage names all that there are.

@@ -108,7 +108,7 @@ class DownloadContractTest : public ContractTest {
     expect_as_described("GET", one_job + "/result", 416, part_of(result, "1000-"));
     expect_get(one_job + "/result", "/api/v1/jobs/nothing/result", 404);
     reports(path);
-    for (const char* name : {"ply", "stl", "glb", "png", "zip", "parquet", "causes"}) {
+    for (const char* name : {"ply", "stl", "glb", "png", "zip", "parquet", "causes", "review"}) {
       const json made = ended(post(path, json{{"format", name}}.dump()));
       expect_get(one_job + "/result", "/api/v1/jobs/" + made.at("id").get<std::string>() + "/result", 200);
     }

@@ -1,5 +1,6 @@
 import type { OpenSources } from '../panels/review/review_workspace';
 import type { ReviewSources } from '../state/review/review_session';
+import { unreadableFile } from '../state/review/session_error';
 import type { VerificationSources } from '../state/review/session_verification';
 import { reviewText } from '../text/review_text';
 import { verifyBy } from '../twin/verify';
@@ -97,13 +98,20 @@ function surfaceLeft(
 class ReplayOfFile implements StreamSocket {
   private worker: Worker | null = null;
   private warning: string | null = null;
+  /** Why it cannot be played. */
+  private refusal: ApiError | null = null;
 
   constructor(private readonly file: ReviewFile) {}
 
   openReplay(): Promise<Replay> {
+    const { refusal } = this;
+    this.refusal = null;
+    if (refusal !== null) return Promise.reject(refusal);
     return Promise.resolve(this.described());
   }
   replay(): Promise<Replay> {
+    // Then it is opened again, and refused.
+    if (this.refusal !== null) return Promise.reject(new ApiError('', 404));
     return Promise.resolve(this.described());
   }
   changePlayback(_id: string, change: PlaybackChange): Promise<Replay> {
@@ -122,10 +130,14 @@ class ReplayOfFile implements StreamSocket {
       if (worker !== this.worker) return;
       if (data.kind === 'message') handlers.onMessage(data.message);
       else if (data.kind === 'stuck') this.warning = reviewText.notAgreeingFile;
-      else handlers.onClosed(reviewText.fileDamaged);
+      else refuse(reviewText.fileDamaged);
     };
     worker.onerror = () => {
-      if (worker === this.worker) handlers.onClosed(reviewText.notVerified.browser);
+      if (worker === this.worker) refuse(reviewText.notVerified.browser);
+    };
+    const refuse = (words: string) => {
+      this.refusal = new ApiError(words, unreadableFile);
+      handlers.onClosed(words);
     };
     const { module, causes, messages } = this.file;
     this.send({ kind: 'open', module, causes, messages });

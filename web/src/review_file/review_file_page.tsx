@@ -21,7 +21,7 @@ import { fileSources, fileVerification, type ReviewFile } from './file_sources';
 /** The session that this page itself holds. */
 export function ReviewFilePage({ file }: { file: ReviewFile }) {
   const { session, program } = file.facts;
-  const workspace = useMemo(() => new ReviewWorkspace(() => fileSources(file), false), [file]);
+  const workspace = useMemo(() => new ReviewWorkspace(() => fileSources(file), false, false), [file]);
   const verification = useMemo(() => fileVerification(file), [file]);
   useEffect(() => {
     workspace.show([session.id]);
@@ -48,13 +48,13 @@ export function ReviewFilePage({ file }: { file: ReviewFile }) {
       </main>
       <aside class="side review-side">
         <FactsPanel panes={panes} />
-        <MeasurePanel workspace={workspace} />
-        <MapPanel workspace={workspace} />
-        <ScorePanel panes={panes} />
         {panes.map((pane) => (
           <VerificationPanel key={pane.session.id} session={pane.session} sources={verification} atOnce />
         ))}
-        <KeysPanel />
+        <MeasurePanel workspace={workspace} />
+        <MapPanel workspace={workspace} />
+        <ScorePanel panes={panes} />
+        <KeysPanel served={false} />
         <p class="soft" data-testid="made-by">
           {reviewText.fileMadeBy(program)}
         </p>

@@ -68,6 +68,7 @@ export async function readReviewParts(packed: Uint8Array<ArrayBuffer>): Promise<
         if (name !== undefined) maps.set(name, new Int8Array(body.buffer.slice(1)));
         break;
       }
+      case undefined:
       default:
         throw new PartFileError(`a part has the code ${String(part[0])}`);
     }

@@ -33,6 +33,10 @@ export const reviewText = {
       text: (reason: string) =>
         `It is damaged or was never written: ${reason} The known part of the score is still shown. For details, run “ream replay SESSION” on the server.`,
     },
+    file: {
+      title: 'The session in this file cannot be shown',
+      text: (reason: string) => reason,
+    },
     forbidden: {
       title: 'You have no access to this session',
       text: 'It belongs to someone else. Ask an instructor for a viewer link, or log in as its trainee.',
@@ -274,5 +278,7 @@ export const reviewText = {
     ['Q', 'choose which of two sessions the keys control'],
     ['Esc', 'close the explanation of a metric'],
   ] as const,
+  /** Of a review without slices and without a second session. */
+  keysOfServed: ['T', 'Q'] as readonly string[],
   keysFor: (number: number) => `Keys K , . B D control session ${number}.`,
 };

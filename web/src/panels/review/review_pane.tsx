@@ -114,7 +114,11 @@ function PanePicture({ pane, workspace }: { pane: Pane; workspace: ReviewWorkspa
       <p class="chip moment-status" data-testid="moment-status">
         {momentText(session)}
       </p>
-      {error === null ? <LinkNotice store={store} mayReam={false} /> : <SessionErrorNotice session={session} />}
+      {error === null ? (
+        <LinkNotice store={store} mayReam={false} />
+      ) : (
+        <SessionErrorNotice session={session} served={workspace.served} />
+      )}
       {store.recordingWarning.value !== null && (
         <p class="picture-note note-top" role="status" data-testid="recording-warning">
           {appText.recordingDamaged(store.recordingWarning.value)}
@@ -146,7 +150,7 @@ function PanePicture({ pane, workspace }: { pane: Pane; workspace: ReviewWorkspa
   );
 }
 
-function SessionErrorNotice({ session }: { session: ReviewSession }) {
+function SessionErrorNotice({ session, served }: { session: ReviewSession; served: boolean }) {
   const error = session.error.value;
   if (error === null) return null;
   const away = error.kind === 'live';
@@ -156,9 +160,11 @@ function SessionErrorNotice({ session }: { session: ReviewSession }) {
       <p>{error.text}</p>
       <p class="notice-actions">
         <Button onClick={() => session.tryAgain()}>{reviewText.tryAgain}</Button>
-        <a href={addressOfRoute(away ? { kind: 'live' } : { kind: 'sessions' })}>
-          {away ? reviewText.toLive : reviewText.toSessions}
-        </a>
+        {served && (
+          <a href={addressOfRoute(away ? { kind: 'live' } : { kind: 'sessions' })}>
+            {away ? reviewText.toLive : reviewText.toSessions}
+          </a>
+        )}
       </p>
     </div>
   );

@@ -31,6 +31,8 @@ export class ReviewWorkspace {
 
   constructor(
     private readonly openSources: (id: string) => OpenSources,
+    /** Whether the page has a server, with other pages and other sessions. */
+    readonly served: boolean,
     readonly mayAnnotate: boolean,
   ) {}
 

@@ -1,7 +1,11 @@
 import { useEffect, useMemo } from 'preact/hooks';
 
 import type { ReviewSession } from '../../state/review/review_session';
-import { SessionVerification, type VerificationSources, type VerificationState } from '../../state/review/session_verification';
+import {
+  SessionVerification,
+  type VerificationSources,
+  type VerificationState,
+} from '../../state/review/session_verification';
 import { percent, sentence } from '../../text/format';
 import { reviewText } from '../../text/review_text';
 import type { Verification } from '../../twin/verification_worker';

@@ -9,6 +9,7 @@ import type { Player } from '../player';
 import { Scrubber } from '../scrubber';
 import type { Store } from '../store';
 import type { PlaybackChange, Replay } from '../../wire/rest_types';
+import { unreadableFile } from './session_error';
 
 /** Where pictures go. */
 export interface Picture {
@@ -170,4 +171,4 @@ export class ReplayPlayer implements Player {
 
 /** The session is gone, goes on, was never recorded, is damaged, or is not for this user. */
 const isRefusal = (error: unknown): error is ApiError =>
-  error instanceof ApiError && [403, 404, 409, 422].includes(error.status);
+  error instanceof ApiError && [403, 404, 409, unreadableFile, 422].includes(error.status);

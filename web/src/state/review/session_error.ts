@@ -8,6 +8,9 @@ export interface SessionError {
   text: string;
 }
 
+/** In the place of a server's status: a review file that this browser cannot play. */
+export const unreadableFile = 415;
+
 /** Words for a session that cannot be shown; the server's own stand behind ours. */
 export function sessionErrorOf({ status, message }: Pick<ApiError, 'status' | 'message'>): SessionError {
   const { errors } = reviewText;
@@ -18,6 +21,8 @@ export function sessionErrorOf({ status, message }: Pick<ApiError, 'status' | 'm
       return { kind: 'live', ...errors.live };
     case 422:
       return { kind: 'damaged', title: errors.damaged.title, text: errors.damaged.text(message) };
+    case unreadableFile:
+      return { kind: 'damaged', title: errors.file.title, text: errors.file.text(message) };
     case 403:
       return { kind: 'forbidden', ...errors.forbidden };
     case 0:

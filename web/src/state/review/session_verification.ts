@@ -16,7 +16,11 @@ export interface VerificationSources {
   /** Has the file of causes made; where it is, or itself. */
   causes(onProgress: (share: number) => void): Promise<string | Blob>;
   /** Rejects when it is given up. */
-  verify(causes: string | Blob, onTicks: (ticks: number) => void, signal: AbortSignal): Promise<Verification | Obstacle>;
+  verify(
+    causes: string | Blob,
+    onTicks: (ticks: number) => void,
+    signal: AbortSignal,
+  ): Promise<Verification | Obstacle>;
 }
 
 /** Whether a recorded session, computed again in this browser, leaves the bone that it says it left. */
