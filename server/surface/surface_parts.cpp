@@ -46,8 +46,8 @@ TriangleMesh lay_out(std::vector<SurfacePart>& parts) {
 }
 
 /// Writes the part into the whole, whose arrays have their sizes already.
-void join(const BlockLayout& layout, const Vec3& spacing_mm, int stride, const std::vector<SurfacePart>& parts,
-          const SurfacePart& part, TriangleMesh& whole) {
+void join(const BlockLayout& layout, const Vec3& spacing_mm, int stride,
+          const std::vector<SurfacePart>& parts, const SurfacePart& part, TriangleMesh& whole) {
   const Vec3i block = layout.coordinates(part.mesh.block);
   std::array<const SurfacePart*, SurfacePart::axis_sets> owner{};
   std::array<size_t, SurfacePart::axis_sets> borrowed{};

@@ -171,7 +171,8 @@ void write_causes(const ExportRequest& request, const std::filesystem::path& out
   progress(0.0, "reading the case");
   const record::Recording recording = recording_of(request);
   const case_::Case start = case_of(recording, request.case_name, request.data);
-  write_file_atomically(out, causes_of(recording, start, CauseUse::verification, part_of(progress, 0.2, 0.9)));
+  write_file_atomically(out,
+                        causes_of(recording, start, CauseUse::verification, part_of(progress, 0.2, 0.9)));
 }
 
 }  // namespace ream::session

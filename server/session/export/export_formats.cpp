@@ -14,7 +14,6 @@
 #include "score/deviation.hpp"
 #include "session/export/cause_export.hpp"
 #include "session/export/reamed_bone.hpp"
-#include "session/export/review_file.hpp"
 #include "session/export/session_bundle.hpp"
 #include "session/export/session_report.hpp"
 #include "session/export/session_tables.hpp"

@@ -1,7 +1,6 @@
-#include "session/export/review_file.hpp"
-
 #include <algorithm>
 #include <locale>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string_view>
 
@@ -23,6 +22,7 @@
 #include "session/scoring/score_document.hpp"
 #include "session/simulation/find_case.hpp"
 #include "session/simulation/recorded_session.hpp"
+#include "twin/part_file.hpp"
 
 namespace ream::session {
 using nlohmann::json;
@@ -30,6 +30,17 @@ namespace {
 
 namespace fs = std::filesystem;
 using twin::Bytes;
+
+/// Beside its causes a review file holds a file of parts (twin/part_file.hpp) with these bytes first:
+///   facts    JSON: `session` (what a review shows of it), `score` (Score of openapi.yaml), `marks`, `ticks`,
+///   `trace` (CSV
+///            of t_s, thrust_n and spindle_on), and `map` (what a byte of a map means)
+///   message  u32 ticks that have passed, then a message of proto/stream.fbs that holds from there on
+///   map      u8 0 plan, 1 implant, 2 wall; then a byte for each vertex of the surface that the causes leave
+enum class ReviewPart : uint8_t { facts = 1, message = 2, map = 3 };
+
+inline constexpr twin::FileMagic review_magic{'r', 'e', 'a', 'm', 'v', 'i', 'e', 'w'};
+inline constexpr uint32_t review_revision = 1;
 
 /// Where a page has it, there the session goes.
 constexpr std::string_view place_for_session = "<!--ream:session-->";
@@ -157,7 +168,8 @@ void write_review_file(const ExportRequest& request, const fs::path& out, const 
   const fs::path page_file = folder / "review_file.html";
   std::error_code failed;
   if (folder.empty() || !fs::is_regular_file(page_file, failed))
-    throw Error(ErrorKind::not_found, "a review file needs the page, which is not built (scripts/build makes it)");
+    throw Error(ErrorKind::not_found,
+                "a review file needs the page, which is not built (scripts/build makes it)");
   const std::string page = read_text_file(page_file);
   const size_t place = page.find(place_for_session);
   if (place == std::string::npos)

@@ -102,8 +102,8 @@ REAM_EXPORT(twin_marks_bytes) uint32_t twin_marks_bytes(uint32_t kind) {
   return static_cast<uint32_t>(marks(kind).size());
 }
 
-/// Makes the whole surface (BoneTwin::whole_surface): how many vertices it has. Three floats a vertex and normal,
-/// three u32 a triangle.
+/// Makes the whole surface (BoneTwin::whole_surface): how many vertices it has. Three floats a vertex and
+/// normal, three u32 a triangle.
 REAM_EXPORT(twin_make_whole_surface) uint32_t twin_make_whole_surface() {
   whole() = player().twin() ? player().twin()->whole_surface() : ream::TriangleMesh();
   return static_cast<uint32_t>(whole().vertices_mm.size());

@@ -27,7 +27,7 @@ const Rooms& drawn_arrows() {
       {"study", {"session", "access", "statistics"}},
       {"jobs", {"session"}},
       {"session", {"sim", "openigtlink", "report", "ct", "render", "solve", "store", "net", "twin"}},
-      {"twin", {"collide", "record", "surface"}},
+      {"twin", {"collide", "record", "stream"}},
       {"sim", {"collide", "force", "record", "case"}},
       {"collide", {"shell"}},
       {"stream", {"surface"}},

@@ -68,8 +68,8 @@ inline constexpr Limits server_limits{.header_lines = 250,
                                       .folder_cycles = 0,
                                       .single_function_headers = 15,
                                       .private_headers = 23,
-                                      .files = 1087,
-                                      .lines = 101100,
+                                      .files = 1097,
+                                      .lines = 101900,
                                       .min_median_file_lines = 70,
                                       .max_median_file_lines = 110};
 

@@ -7,9 +7,9 @@
 
 #include "record/recorded_bone.hpp"
 #include "session/simulation/recorded_session.hpp"
+#include "stream/mesh_publisher.hpp"
 #include "support/changed_recording.hpp"
 #include "support/expect_error.hpp"
-#include "stream/mesh_publisher.hpp"
 #include "support/recorded_reaming.hpp"
 #include "support/seed.hpp"
 #include "support/twin/cause_file.hpp"
@@ -239,8 +239,7 @@ TEST_F(CauseExport, APictureHasTheMarksThatAServerSends) {
   const record::Recording recording(path);
   const case_::Case start = session::case_of(recording, "", reaming_.data());
   const auto file = reaming_.folder().path() / "pictures.causes";
-  write_file_atomically(file,
-                        session::causes_of(recording, start, session::CauseUse::pictures, no_progress));
+  write_file_atomically(file, session::causes_of(recording, start, session::CauseUse::pictures, no_progress));
   TwinPlayer player;
   for (const twin::Bytes& part : parts_of(file)) ASSERT_EQ(player.take(part), Outcome::agrees);
   stream::Fanout fanout;

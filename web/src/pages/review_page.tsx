@@ -21,7 +21,7 @@ import type { Route } from '../state/route';
 import { ReviewWorkspace } from '../panels/review/review_workspace';
 import { reviewKeys } from '../panels/review/review_keys';
 import { servedSources } from '../panels/review/served_sources';
-import { servedVerification } from '../twin/served_verification';
+import { servedVerification } from '../panels/review/served_verification';
 import { ReviewApi } from '../wire/review_api';
 
 /** One session after its end, or two beside each other. */
