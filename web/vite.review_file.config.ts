@@ -17,6 +17,7 @@ export default defineConfig({
     singlePage('review_file.html', {
       elements: { 'ream-twin': built('ream-twin.wasm') },
       licences: [built('ream-twin.third-party.txt')],
+      others: resolve(import.meta.dirname, 'dist/third-party.json'),
     }),
   ],
   build: {

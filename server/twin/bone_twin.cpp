@@ -80,43 +80,44 @@ void BoneTwin::show_change(uint32_t brick) noexcept {
                           [this](uint32_t block) { block_changed_[block] = 1; });
 }
 
-size_t BoneTwin::keep_moment() {
-  if (moments_passed_ == moments_.size()) {
-    Moment moment;
-    moment.session_hash = session_hash_;
-    if (reaming_) moment.reaming = std::make_unique<const Reaming>(*reaming_);
-    moment.bricks = changed_;
-    moment.coverage.reserve(changed_.size() * brick_voxels);
+size_t BoneTwin::keep_snapshot() {
+  if (snapshots_passed_ == snapshots_.size()) {
+    Snapshot snapshot;
+    snapshot.session_hash = session_hash_;
+    if (reaming_) snapshot.reaming = std::make_unique<const Reaming>(*reaming_);
+    snapshot.bricks = changed_;
+    snapshot.coverage.reserve(changed_.size() * brick_voxels);
     for (const uint32_t brick : changed_)
-      moment.coverage.insert(moment.coverage.end(), coverage_of(brick), coverage_of(brick) + brick_voxels);
-    moments_.push_back(std::move(moment));
+      snapshot.coverage.insert(snapshot.coverage.end(), coverage_of(brick),
+                               coverage_of(brick) + brick_voxels);
+    snapshots_.push_back(std::move(snapshot));
   }
   for (const uint32_t brick : changed_) is_changed_[brick] = 0;
   changed_.clear();
-  return moments_passed_++;
+  return snapshots_passed_++;
 }
 
 void BoneTwin::go_to(size_t to) {
-  assert(to < moments_.size());
+  assert(to < snapshots_.size());
   std::vector<uint8_t> other(is_changed_);
   std::vector<uint32_t> bricks(std::move(changed_));
-  for (size_t i = std::min(to + 1, moments_passed_); i < std::max(to + 1, moments_passed_); ++i)
-    for (const uint32_t brick : moments_[i].bricks)
+  for (size_t i = std::min(to + 1, snapshots_passed_); i < std::max(to + 1, snapshots_passed_); ++i)
+    for (const uint32_t brick : snapshots_[i].bricks)
       if (std::exchange(other[brick], uint8_t{1}) == 0) bricks.push_back(brick);
   for (const uint32_t brick : bricks) {
     std::memcpy(coverage_of(brick), removed_.kept(brick), brick_voxels);
     show_change(brick);
   }
   for (size_t i = 0; i <= to; ++i)
-    for (size_t place = 0; place < moments_[i].bricks.size(); ++place)
-      if (const uint32_t brick = moments_[i].bricks[place]; other[brick] != 0)
-        std::memcpy(coverage_of(brick), moments_[i].coverage.data() + place * brick_voxels, brick_voxels);
-  const Moment& moment = moments_[to];
-  session_hash_ = moment.session_hash;
-  reaming_ = moment.reaming ? std::make_unique<Reaming>(*moment.reaming) : nullptr;
+    for (size_t place = 0; place < snapshots_[i].bricks.size(); ++place)
+      if (const uint32_t brick = snapshots_[i].bricks[place]; other[brick] != 0)
+        std::memcpy(coverage_of(brick), snapshots_[i].coverage.data() + place * brick_voxels, brick_voxels);
+  const Snapshot& snapshot = snapshots_[to];
+  session_hash_ = snapshot.session_hash;
+  reaming_ = snapshot.reaming ? std::make_unique<Reaming>(*snapshot.reaming) : nullptr;
   changed_.clear();
   is_changed_.assign(is_changed_.size(), 0);
-  moments_passed_ = to + 1;
+  snapshots_passed_ = to + 1;
 }
 
 std::vector<uint32_t> BoneTwin::take_changed_blocks() {

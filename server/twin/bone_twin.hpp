@@ -54,11 +54,11 @@ class BoneTwin {
   uint64_t session_hash() const { return session_hash_; }
   const voxel::BoneModel& bone() const { return bone_; }
 
-  /// Keeps what there is now, so that go_to() leads here; its number. A moment that follows the one kept or
-  /// gone to last, where one is kept already, is the same again: the same causes lead to it.
-  size_t keep_moment();
-  /// Back, or forward, to a moment that was kept. Costs what changed since the first.
-  void go_to(size_t moment);
+  /// Keeps what there is now, so that go_to() leads here; its number. After go_to() the same ticks must
+  /// follow as before: the next one kept then is the one that is there already.
+  size_t keep_snapshot();
+  /// Back, or forward, to a snapshot. Costs what changed since the first.
+  void go_to(size_t snapshot);
 
   /// For pictures without a stream of meshes: surface blocks that may have changed since the last call,
   /// ascending; all of them at first.
@@ -76,8 +76,8 @@ class BoneTwin {
     std::shared_ptr<collide::Removal> removal;
     collide::RemovalSchedule schedule;
   };
-  /// Bone by its bricks that changed since the moment before.
-  struct Moment {
+  /// Bone by its bricks that changed since the one before.
+  struct Snapshot {
     uint64_t session_hash = 0;
     std::unique_ptr<const Reaming> reaming;
     std::vector<uint32_t> bricks;
@@ -96,9 +96,9 @@ class BoneTwin {
   std::unique_ptr<Reaming> reaming_;
   std::vector<uint8_t> block_changed_;  ///< of each surface block
   uint64_t session_hash_ = 0;
-  std::vector<Moment> moments_;
-  size_t moments_passed_ = 0;
-  std::vector<uint8_t> is_changed_;  ///< of each brick, since the moment before
+  std::vector<Snapshot> snapshots_;
+  size_t snapshots_passed_ = 0;
+  std::vector<uint8_t> is_changed_;  ///< of each brick, since the last snapshot
   std::vector<uint32_t> changed_;
 };
 

@@ -65,18 +65,18 @@ TwinPlayer::Outcome TwinPlayer::take_end(std::span<const std::byte> bytes) {
   return twin_->bone().coverage_hash() == end->coverage_hash ? Outcome::agrees : Outcome::differs;
 }
 
-std::optional<size_t> TwinPlayer::keep_moment() {
+std::optional<size_t> TwinPlayer::keep_snapshot() {
   if (!twin_ || outcome_ != Outcome::agrees || ended_) return std::nullopt;
-  const size_t moment = twin_->keep_moment();
-  if (moment == moments_.size()) moments_.push_back({agreed_ticks_, has_segment_});
-  return moment;
+  const size_t snapshot = twin_->keep_snapshot();
+  if (snapshot == snapshots_.size()) snapshots_.push_back({agreed_ticks_, has_segment_});
+  return snapshot;
 }
 
-bool TwinPlayer::go_to(size_t moment) {
-  if (moment >= moments_.size() || outcome_ == Outcome::damaged) return false;
-  twin_->go_to(moment);
-  agreed_ticks_ = moments_[moment].agreed_ticks;
-  has_segment_ = moments_[moment].has_segment;
+bool TwinPlayer::go_to(size_t snapshot) {
+  if (snapshot >= snapshots_.size()) return false;
+  twin_->go_to(snapshot);
+  agreed_ticks_ = snapshots_[snapshot].agreed_ticks;
+  has_segment_ = snapshots_[snapshot].has_segment;
   ended_ = false;
   outcome_ = Outcome::agrees;
   return true;

@@ -28,11 +28,12 @@ class TwinPlayer {
   /// Of the whole recording, once it has ended: more than those that agreed where its last ticks have no
   /// bone, as of a program that was killed.
   uint32_t recorded_ticks() const { return recorded_ticks_; }
-  /// Keeps what has been computed, for go_to(); its number, as BoneTwin::keep_moment. Empty before the start
-  /// and where parts do not agree.
-  std::optional<size_t> keep_moment();
-  /// The next part is the one that came after that moment. False, with nothing changed, for no such moment.
-  bool go_to(size_t moment);
+  /// Keeps what has been computed, for go_to(); its number, as BoneTwin::keep_snapshot. Empty before the
+  /// start, after the end, and where parts do not agree.
+  std::optional<size_t> keep_snapshot();
+  /// The next part is the one that came after that snapshot, whatever became of those since. False, with
+  /// nothing changed, for no such snapshot.
+  bool go_to(size_t snapshot);
   /// Empty before the start.
   BoneTwin* twin() { return twin_ ? &*twin_ : nullptr; }
 
@@ -47,11 +48,11 @@ class TwinPlayer {
   uint32_t agreed_ticks_ = 0, recorded_ticks_ = 0;
   bool has_segment_ = false, ended_ = false;
   Outcome outcome_ = Outcome::agrees;
-  struct Moment {
+  struct Snapshot {
     uint32_t agreed_ticks = 0;
     bool has_segment = false;
   };
-  std::vector<Moment> moments_;
+  std::vector<Snapshot> snapshots_;
 };
 
 }  // namespace ream::twin

@@ -3,6 +3,7 @@ import { spawnSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { gunzipSync, gzipSync } from 'node:zlib';
 
 import { AxeBuilder } from '@axe-core/playwright';
 import { expect, type Locator, type Page, test } from '@playwright/test';
@@ -99,7 +100,7 @@ test('a review file is a whole review, from disk and without a request', async (
   await page.keyboard.press('e');
   await page.getByTestId('bone-canvas').focus();
   await page.keyboard.press('Enter');
-  await expect(page.getByTestId('measure')).toBeVisible();
+  await expect(page.getByTestId('clear-measure')).toBeVisible();
   for (const [width, height] of [
     [390, 844],
     [820, 1180],
@@ -132,4 +133,28 @@ test('a damaged file says so', async ({ page }) => {
   await page.goto(`file://${changedFile('cut-causes.html', 'ream-causes', half)}`);
   await expect(page.getByTestId('session-error')).toContainText('Export the session again', patiently);
   await expect(page.getByTestId('score')).toContainText('of 100');
+});
+
+/** With another hash after the part of ticks that begins at 5 s. */
+function contradicted(base64: string): string {
+  const [headBytes, lengthBytes, hashAt] = [12, 4, 9];
+  const file = gunzipSync(Buffer.from(base64, 'base64'));
+  for (let at = headBytes; at < file.length; at += lengthBytes + file.readUInt32LE(at)) {
+    const part = at + lengthBytes;
+    if (file[part] !== 3 || file.readUInt32LE(part + 1) !== 5000) continue;
+    file.writeUInt8(file.readUInt8(part + hashAt) ^ 1, part + hashAt);
+    return gzipSync(file).toString('base64');
+  }
+  throw new Error('there are no ticks of 5 s');
+}
+
+test('a recording that contradicts itself is shown as far as it agrees', async ({ page }) => {
+  await open(page, changedFile('forged.html', 'ream-causes', contradicted));
+  await expect(page.getByTestId('recording-warning')).toContainText('not the recorded one', patiently);
+  await expect(page.getByTestId('verification-result')).toContainText('agrees for the first 5.0 s', patiently);
+  await page.getByTestId('after').click();
+  await expect.poll(() => atTick(pane(page)), patiently).toBe(5000);
+  await expect(page.getByTestId('after')).toHaveAttribute('aria-pressed', 'false');
+  await page.getByTestId('before').click();
+  await expect.poll(() => atTick(pane(page)), patiently).toBe(0);
 });

@@ -47,19 +47,24 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   fuzz::Input input(data, size);
   const int good = input.byte() % 3;
   twin::TwinPlayer player;
-  size_t moments = 0;
+  size_t snapshots = 0;
   if (good > 0) player.take(start);
   if (good > 1) player.take(segment);
   while (!input.empty()) {
+    const uint8_t then = input.byte();
     const std::string_view part = input.piece();
     const auto before = player.agreed_ticks();
     player.take(std::as_bytes(std::span(part.data(), part.size())));
     fuzz::require(player.agreed_ticks() >= before, "ticks were taken back");
-    if (part.size() % 5 == 0) moments += player.keep_moment() == moments;
-    if (part.size() % 7 == 0)
-      fuzz::require(!player.go_to(part.size()) || part.size() < moments, "a moment that was not kept");
+    if (then < 64)
+      if (const auto kept = player.keep_snapshot()) snapshots = std::max(snapshots, *kept + 1);
+    if (then >= 192)
+      fuzz::require(player.go_to(then % 8u) == (then % 8u < snapshots),
+                    "a snapshot that was not kept, or one that is gone");
   }
-  if (twin::BoneTwin* twin = player.twin())
+  if (twin::BoneTwin* twin = player.twin()) {
     for (const uint32_t block : twin->take_changed_blocks()) twin->surface_of(block);
+    twin->whole_surface();
+  }
   return 0;
 }

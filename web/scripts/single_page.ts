@@ -11,10 +11,19 @@ interface Held {
   elements: Readonly<Record<string, string>>;
   /** Licences of what is in those, which have to go wherever they go. */
   licences: readonly string[];
+  /** third-party.json of the page that is built before: the list of all npm packages that go out. */
+  others: string;
+}
+
+function mustBeIn(others: string, packages: string): void {
+  const names = (list: string) => (JSON.parse(list) as { name: string }[]).map(({ name }) => name);
+  const known = names(readFileSync(others, 'utf8'));
+  const missing = names(packages).filter((name) => !known.includes(name));
+  if (missing.length > 0) throw new Error(`${others} lacks ${missing.join(', ')}`);
 }
 
 /** `file`: of the bundle. After bundledPackages(), whose list of licences goes into the page. */
-export function singlePage(file: string, { elements, licences }: Held): Plugin {
+export function singlePage(file: string, { elements, licences, others }: Held): Plugin {
   return {
     name: 'single-page',
     enforce: 'post',
@@ -30,9 +39,11 @@ export function singlePage(file: string, { elements, licences }: Held): Plugin {
         if (part.type === 'chunk') scripts += `<script type="module">${inScript(part.code)}</script>\n`;
         else if (name.endsWith('.css')) styles += `<style>${String(part.source)}</style>\n`;
         else if (name === 'third-party.txt') terms.unshift(String(part.source));
-        else if (name !== 'third-party.json') throw new Error(`${name} has no place in ${file}`);
+        else if (name === 'third-party.json') mustBeIn(others, String(part.source));
+        else throw new Error(`${name} has no place in ${file}`);
         delete bundle[name];
       }
+      if (!/<script [^>]*src=/.test(html)) throw new Error(`${file} has no script`);
       html = html
         .replace(/<script [^>]*src="[^"]*"[^>]*><\/script>\s*/g, '')
         .replace(/<link rel="(stylesheet|modulepreload)"[^>]*>\s*/g, '');

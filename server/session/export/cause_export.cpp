@@ -13,6 +13,7 @@
 #include "shell/swept_profile.hpp"
 #include "stream/surface_classes.hpp"
 #include "twin/part_file.hpp"
+#include "voxel/solid_cells.hpp"
 
 namespace ream::session {
 namespace {
@@ -23,11 +24,11 @@ constexpr uint32_t ticks_of_part = 250;
 /// More than people change reamers in a session; each costs a table.
 constexpr size_t max_segments = 1000;
 
-/// Coverage of a voxel that lies within the surface.
-constexpr uint8_t surface_level = 128;
-
 void require_twin(const record::Recording& recording, const voxel::VoxelGrid& grid) {
   const sim::Settings settings = recorded_settings(recording, "cpu");
+  if (recording.segments().empty() || recording.segments().front().first_tick != 0)
+    throw Error(ErrorKind::invalid_input,
+                recording.log().path().string() + " does not say which reamer it begins with");
   if (settings.removal == sim::RemovalLaw::decay)
     throw Error(ErrorKind::conflict,
                 "the session removed bone by decay; only what the reamer's swept body "
@@ -80,15 +81,6 @@ void add_ticks(const record::Recording& recording, uint32_t first, uint32_t last
   flush();
 }
 
-/// Ticks up to which the recording keeps its bone whole: of a session that was killed, images of the bricks
-/// that its last ticks changed are missing.
-uint32_t whole_ticks(const record::Recording& recording) {
-  const auto checkpoint = recording.last_checkpoint();
-  return checkpoint ? static_cast<uint32_t>(
-                          std::min<uint64_t>(uint64_t{checkpoint->tick} + 1, recording.tick_count()))
-                    : 0;
-}
-
 /// Which voxels lie within `reach` voxels, along each axis, of one that `is` so. `outside`: whether what lies
 /// beside the grid is.
 template <typename Is>
@@ -120,7 +112,7 @@ std::vector<uint8_t> within_reach(const voxel::VoxelGrid& grid, int reach, bool 
 std::vector<uint8_t> shown_density(const voxel::BoneModel& start, const record::RecordedBone& left) {
   std::array<uint8_t, 256> shown{};
   const stream::SurfaceClasses classes(start);
-  for (int code = 255; code >= 0; --code) {
+  for (size_t code = 0; code < shown.size(); ++code) {
     const auto c = static_cast<uint8_t>(code);
     // The least that looks so; 0 stands for what is not told.
     shown[c] = c;
@@ -133,9 +125,9 @@ std::vector<uint8_t> shown_density(const voxel::BoneModel& start, const record::
   std::vector<uint8_t> coverage = start.coverage;
   left.write_to(coverage);
   const auto near_gone =
-      within_reach(start.grid, 2, true, [&](size_t i) { return coverage[i] < surface_level; });
-  const auto near_bone =
-      within_reach(start.grid, 2, false, [&](size_t i) { return start.coverage[i] >= surface_level; });
+      within_reach(start.grid, 2, true, [&](size_t i) { return coverage[i] < voxel::solid_coverage; });
+  const auto near_bone = within_reach(start.grid, 2, false,
+                                      [&](size_t i) { return start.coverage[i] >= voxel::solid_coverage; });
   std::vector<uint8_t> density(start.grid.voxel_count());
   for (size_t i = 0; i < density.size(); ++i)
     if (near_gone[i] != 0 && near_bone[i] != 0) density[i] = shown[std::max<uint8_t>(start.density[i], 1)];
@@ -144,11 +136,19 @@ std::vector<uint8_t> shown_density(const voxel::BoneModel& start, const record::
 
 }  // namespace
 
+uint32_t whole_ticks(const record::Recording& recording) {
+  const auto checkpoint = recording.last_checkpoint();
+  return checkpoint ? static_cast<uint32_t>(
+                          std::min<uint64_t>(uint64_t{checkpoint->tick} + 1, recording.tick_count()))
+                    : 0;
+}
+
 twin::Bytes causes_of(const record::Recording& recording, const case_::Case& start, CauseUse use,
                       const Progress& progress) {
   const voxel::BoneModel& bone = start.bone;
   require_twin(recording, bone.grid);
   const uint32_t ticks = whole_ticks(recording);
+  progress(0.0, "reading the bone");
   if (ticks == 0) throw Error(ErrorKind::conflict, "the recording holds no bone to compare with");
   record::RecordedBone left(recording, bone.grid, bone.coverage);
   left.seek(ticks, [](const voxel::BrickImage&) {});
@@ -159,7 +159,7 @@ twin::Bytes causes_of(const record::Recording& recording, const case_::Case& sta
   const auto& segments = recording.segments();
   for (size_t i = 0; i < segments.size() && segments[i].first_tick < ticks; ++i) {
     const uint32_t end = i + 1 < segments.size() ? segments[i + 1].first_tick : ticks;
-    progress(0.0, "writing the reamer");
+    progress(static_cast<double>(segments[i].first_tick) / ticks, "writing the reamer");
     add_segment(recording, segments[i], bone.grid, file);
     add_ticks(recording, segments[i].first_tick, std::min(end, ticks), file, progress);
   }

@@ -11,9 +11,14 @@ enum class CauseUse {
   pictures  ///< also tells what bone is made of that can come to the surface
 };
 
+/// Ticks up to which the recording keeps its bone whole: of a session that was killed, images of the bricks
+/// that its last ticks changed are missing.
+uint32_t whole_ticks(const record::Recording& recording);
+
 /// What computes the session's bone again anywhere, in a browser too: a file as proto/causes.md has it.
 /// Errors beside those of the recording and its case: conflict where bone was removed by decay, or by another
-/// physics, or is more than a browser holds.
+/// physics, or is more than a browser holds, or where the recording holds none to compare with;
+/// invalid_input for missing ticks.
 twin::Bytes causes_of(const record::Recording& recording, const case_::Case& start, CauseUse use,
                       const Progress& progress);
 

@@ -31,16 +31,11 @@ namespace {
 namespace fs = std::filesystem;
 using twin::Bytes;
 
-/// Beside its causes a review file holds a file of parts (twin/part_file.hpp) with these bytes first:
-///   facts    JSON: `session` (what a review shows of it), `score` (Score of openapi.yaml), `marks`, `ticks`,
-///   `trace` (CSV
-///            of t_s, thrust_n and spindle_on), and `map` (what a byte of a map means)
-///   message  u32 ticks that have passed, then a message of proto/stream.fbs that holds from there on
-///   map      u8 0 plan, 1 implant, 2 wall; then a byte for each vertex of the surface that the causes leave
-enum class ReviewPart : uint8_t { facts = 1, message = 2, map = 3 };
+/// Parts of a review file beside its causes, by their first byte; proto/causes.md says what follows.
+enum class ReviewPart : uint8_t { facts = 1, hello = 2, telemetry = 3, tool = 4, map = 5 };
 
-inline constexpr twin::FileMagic review_magic{'r', 'e', 'a', 'm', 'v', 'i', 'e', 'w'};
-inline constexpr uint32_t review_revision = 1;
+constexpr twin::FileMagic review_magic{'r', 'e', 'a', 'm', 'v', 'i', 'e', 'w'};
+constexpr uint32_t review_revision = 1;
 
 /// Where a page has it, there the session goes.
 constexpr std::string_view place_for_session = "<!--ream:session-->";
@@ -50,14 +45,8 @@ constexpr uint32_t ticks_of_message = 20;
 /// More than a timeline has pixels is seen by nobody.
 constexpr uint32_t max_trace_rows = 600;
 
-Bytes part_of_review(ReviewPart code, std::span<const std::byte> bytes) {
-  Bytes part{static_cast<std::byte>(code)};
+void append(Bytes& part, std::span<const std::byte> bytes) {
   part.insert(part.end(), bytes.begin(), bytes.end());
-  return part;
-}
-
-Bytes part_of_review(ReviewPart code, std::string_view text) {
-  return part_of_review(code, std::as_bytes(std::span(text)));
 }
 
 /// As it is kept, else by the newest standard rubric.
@@ -77,13 +66,13 @@ json score_of(const record::Recording& recording, const ExportRequest& request, 
 }
 
 /// The columns of trace.csv that a timeline shows.
-std::string trace_of(const record::Recording& recording) {
+std::string trace_of(const record::Recording& recording, uint32_t ticks) {
   const voxel::VoxelGrid grid = recording.grid();
-  const uint32_t stride = std::max(1u, (recording.tick_count() + max_trace_rows - 1) / max_trace_rows);
+  const uint32_t stride = std::max(1u, (ticks + max_trace_rows - 1) / max_trace_rows);
   std::ostringstream csv;
   csv.imbue(std::locale::classic());
   csv << "t_s,thrust_n,spindle_on\n";
-  recording.for_each_tick(0, UINT32_MAX, [&](const record::ops::Tick& tick) {
+  recording.for_each_tick(0, ticks, [&](const record::ops::Tick& tick) {
     if (tick.tick % stride != 0) return;
     const record::TickReport report = record::report_of(tick, grid.world_from_grid);
     csv << tick.tick * tick_s << ',' << report.thrust_n << ',' << report.spindle_on << '\n';
@@ -111,38 +100,54 @@ json shown_session(const json& session, const record::Recording& recording, cons
           {"fault", text("fault", "")}};
 }
 
-json facts_of(const record::Recording& recording, const ExportRequest& request, const Progress& progress) {
+/// What of the recording the file leaves out, in words; empty: nothing.
+std::string warning_of(const record::Recording& recording, uint32_t ticks) {
+  if (ticks == recording.tick_count()) return "";
+  return "the program was ended; no bone was saved for the last " +
+         std::to_string(recording.tick_count() - ticks) + " ms";
+}
+
+json facts_of(const record::Recording& recording, const ExportRequest& request, uint32_t ticks,
+              const Progress& progress) {
   const json session = labelled_session(request, recording);
   json marks = json::array();
   for (const ReplayMark& mark : recorded_marks(recording))
-    marks.push_back({{"at_s", mark.at_s}, {"kind", mark.kind}, {"words", mark.words}});
+    if (mark.at_s <= ticks * tick_s)
+      marks.push_back({{"at_s", mark.at_s}, {"kind", mark.kind}, {"words", mark.words}});
   json score = score_of(recording, request, session, progress);
   return {{"program", version_text()},
           {"session", shown_session(session, recording, fs::absolute(request.recording).parent_path())},
           {"score", std::move(score)},
           {"marks", std::move(marks)},
-          {"ticks", recording.tick_count()},
-          {"trace", trace_of(recording)},
+          {"ticks", ticks},
+          {"trace", trace_of(recording, ticks)},
+          {"warning", warning_of(recording, ticks)},
           {"map",
            {{"step_mm", score::deviation_step_mm},
+            {"range_mm", score::deviation_range_mm},
             {"wall_step_mm", score::wall_step_mm},
+            {"wall_range_mm", 127.0 * score::wall_step_mm},
             {"unknown", score::deviation_unknown}}}};
 }
 
 void add_stream(const record::Recording& recording, const case_::Case& start,
                 const std::shared_ptr<const score::NativeGlenoid>& native, const std::string& id,
-                twin::PartFileWriter& file, const Progress& progress) {
+                uint32_t ticks, twin::PartFileWriter& file, const Progress& progress) {
   stream::HelloInfo hello = recorded_hello(recording, start);
   hello.session_id = hello.replay_of = id;
-  for (const RecordedMessage& each :
-       recorded_stream(recording, start, native, std::move(hello), ticks_of_message, progress)) {
-    Bytes part{static_cast<std::byte>(ReviewPart::message)};
-    record::ops::put_field(part, each.at_ticks);
-    part.insert(part.end(), each.message->begin(), each.message->end());
+  const auto take = [&](RecordedMessage kind, uint32_t at_ticks, const stream::Message& message) {
+    const bool is_hello = kind == RecordedMessage::hello;
+    Bytes part{static_cast<std::byte>(is_hello                        ? ReviewPart::hello
+                                      : kind == RecordedMessage::tool ? ReviewPart::tool
+                                                                      : ReviewPart::telemetry)};
+    if (!is_hello) record::ops::put_field(part, at_ticks);
+    append(part, *message);
     file.add(part);
-  }
+  };
+  recorded_stream(recording, start, native, std::move(hello), ticks, ticks_of_message, take, progress);
 }
 
+/// In the order of the vertices of the surface that the causes leave.
 void add_maps(const record::Recording& recording, const ExportRequest& request, twin::PartFileWriter& file,
               const Progress& progress) {
   const report::ReamedBone bone =
@@ -150,8 +155,7 @@ void add_maps(const record::Recording& recording, const ExportRequest& request, 
   uint8_t which = 0;
   for (const std::vector<int8_t>* map : {&bone.from_plan, &bone.from_implant, &bone.wall}) {
     Bytes part{static_cast<std::byte>(ReviewPart::map), static_cast<std::byte>(which++)};
-    const auto bytes = std::as_bytes(std::span(*map));
-    part.insert(part.end(), bytes.begin(), bytes.end());
+    append(part, std::as_bytes(std::span(*map)));
     if (!map->empty()) file.add(part);
   }
 }
@@ -180,14 +184,20 @@ void write_review_file(const ExportRequest& request, const fs::path& out, const 
   case_::Case native_case = recorded_case(recording, request.case_name, request.data);
   const auto native = glenoid_if_known(recording, native_case, request.case_name, request.data);
   const case_::Case start = as_before_tick_0(recording, std::move(native_case));
+  const uint32_t ticks = whole_ticks(recording);
   const Bytes causes = causes_of(recording, start, CauseUse::pictures, part_of(progress, 0.1, 0.4));
   twin::PartFileWriter review(review_magic, review_revision);
-  const json facts = facts_of(recording, request, part_of(progress, 0.4, 0.5));
-  review.add(part_of_review(ReviewPart::facts, facts.dump(-1, ' ', false, json::error_handler_t::replace)));
-  add_stream(recording, start, native, facts.at("session").value("id", ""), review,
+  const json facts = facts_of(recording, request, ticks, part_of(progress, 0.4, 0.5));
+  Bytes part{static_cast<std::byte>(ReviewPart::facts)};
+  const std::string text = facts.dump(-1, ' ', false, json::error_handler_t::replace);
+  append(part, std::as_bytes(std::span(text)));
+  review.add(part);
+  add_stream(recording, start, native, facts.at("session").at("id"), ticks, review,
              part_of(progress, 0.5, 0.8));
   progress(0.8, "comparing surfaces");
-  add_maps(recording, request, review, part_of(progress, 0.8, 0.95));
+  // A map is of the bone at the recording's end, and needs something to compare with.
+  if (native && ticks == recording.tick_count())
+    add_maps(recording, request, review, part_of(progress, 0.8, 0.95));
   write_file_atomically(out, page.substr(0, place) + element("ream-causes", causes) +
                                  element("ream-review", review.finish()) +
                                  page.substr(place + place_for_session.size()));

@@ -55,46 +55,38 @@ class RecordedDepth {
   float depth_mm_ = unknown_depth_mm;
 };
 
-/// Gathers the messages while ticks pass.
+/// Tells the messages while ticks pass.
 class StreamWriter {
  public:
-  StreamWriter(const record::Recording& recording, stream::HelloInfo hello)
-      : recording_(recording), hello_(std::move(hello)) {
+  StreamWriter(const record::Recording& recording, stream::HelloInfo hello, const TakeMessage& take)
+      : recording_(recording), take_(take) {
     const shell::Tool tool = tool_of_segment(recording_, 0);
-    hello_.tool = tool.mesh;
-    hello_.tool_name = tool.name;
-    add(0, stream::hello_message(hello_));
-  }
-
-  /// Before the telemetry of the first moment that has it.
-  void change_tools_until(uint32_t ticks) {
-    const auto& segments = recording_.segments();
-    for (; segment_ + 1 < segments.size() && segments[segment_ + 1].first_tick < ticks; ++segment_) {
-      const record::ops::Segment &before = segments[segment_], &now = segments[segment_ + 1];
-      if (before.tool == now.tool && before.tool_axis == now.tool_axis && before.tool_file == now.tool_file)
-        continue;
-      const shell::Tool tool = tool_of_segment(recording_, segment_ + 1);
-      add(now.first_tick + 1, stream::tool_message(tool.mesh, tool.name));
-    }
+    hello.tool = tool.mesh;
+    hello.tool_name = tool.name;
+    take_(RecordedMessage::hello, 0, stream::hello_message(hello));
   }
 
   void show(uint32_t ticks, stream::TelemetrySample& sample) {
+    change_tools_until(ticks);
     sample.state = SessionState::replaying;
     sample.playback = {.position_ticks = ticks};
-    add(ticks, stream::telemetry_message({.samples = {sample}}, 0));
+    take_(RecordedMessage::telemetry, ticks, stream::telemetry_message({.samples = {sample}}, 0));
   }
 
-  std::vector<RecordedMessage> take() { return std::move(messages_); }
-
  private:
-  void add(uint32_t at_ticks, stream::Message message) {
-    messages_.push_back({at_ticks, std::move(message)});
+  void change_tools_until(uint32_t ticks) {
+    const auto& segments = recording_.segments();
+    for (; segment_ + 1 < segments.size() && segments[segment_ + 1].first_tick < ticks; ++segment_) {
+      if (same_reamer(segments[segment_], segments[segment_ + 1])) continue;
+      const shell::Tool tool = tool_of_segment(recording_, segment_ + 1);
+      take_(RecordedMessage::tool, segments[segment_ + 1].first_tick + 1,
+            stream::tool_message(tool.mesh, tool.name));
+    }
   }
 
   const record::Recording& recording_;
-  stream::HelloInfo hello_;
+  const TakeMessage& take_;
   size_t segment_ = 0;
-  std::vector<RecordedMessage> messages_;
 };
 
 }  // namespace
@@ -128,23 +120,28 @@ shell::Tool tool_of_segment(const record::Recording& recording, size_t segment) 
   return tool_of(recorded_reamer(recording, recording.segments()[segment]));
 }
 
-std::vector<RecordedMessage> recorded_stream(const record::Recording& recording, const case_::Case& start,
-                                             const std::shared_ptr<const score::NativeGlenoid>& native,
-                                             stream::HelloInfo hello, uint32_t interval_ticks,
-                                             const Progress& progress) {
-  StreamWriter writer(recording, std::move(hello));
+bool same_reamer(const record::ops::Segment& first, const record::ops::Segment& second) {
+  return first.tool == second.tool && first.tool_axis == second.tool_axis &&
+         first.tool_file == second.tool_file;
+}
+
+void recorded_stream(const record::Recording& recording, const case_::Case& start,
+                     const std::shared_ptr<const score::NativeGlenoid>& native, stream::HelloInfo hello,
+                     uint32_t ticks, uint32_t interval_ticks, const TakeMessage& take,
+                     const Progress& progress) {
+  hello.duration_ticks = ticks;
+  StreamWriter writer(recording, std::move(hello), take);
   score::MetricsAccumulator metrics(start.bone.grid.voxel_volume_mm3(),
-                                    sim::world_from_plan(*start.plan).inverse());
+                                    sim::world_from_plan(plan_of(start)).inverse());
   RecordedDepth depth(recording, start.bone, native);
   stream::TelemetrySample sample;
-  const auto show = [&](uint32_t ticks) {
-    sample.depth_mm = depth.after(ticks);
+  const auto show = [&](uint32_t passed) {
+    sample.depth_mm = depth.after(passed);
     sample.removed_volume_mm3 = static_cast<float>(metrics.removed_volume_mm3());
-    writer.change_tools_until(ticks);
-    writer.show(ticks, sample);
-    progress(static_cast<double>(ticks) / std::max(recording.tick_count(), 1u), "writing the course");
+    writer.show(passed, sample);
+    progress(static_cast<double>(passed) / std::max(ticks, 1u), "writing the course");
   };
-  recording.for_each_tick(0, UINT32_MAX, [&](const record::ops::Tick& tick) {
+  recording.for_each_tick(0, ticks, [&](const record::ops::Tick& tick) {
     const record::TickReport report = record::report_of(tick, start.bone.grid.world_from_grid);
     if (tick.tick == 0) {
       // Before the first tick: where it is going to begin, without force.
@@ -154,11 +151,10 @@ std::vector<RecordedMessage> recorded_stream(const record::Recording& recording,
     }
     metrics.add(report);
     const uint32_t passed = tick.tick + 1;
-    if (passed % interval_ticks != 0 && passed != recording.tick_count()) return;
+    if (passed % interval_ticks != 0 && passed != ticks) return;
     update_sample(report, sample);
     show(passed);
   });
-  return writer.take();
 }
 
 }  // namespace ream::session

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "core/clock.hpp"
 #include "core/error.hpp"
@@ -165,10 +166,8 @@ void ReplayPicture::show_tool() {
     return segment.first_tick > 0 && segment.first_tick >= shown_.position_ticks;
   });
   const auto now = static_cast<size_t>(std::max<std::ptrdiff_t>(next - segments.begin(), 1)) - 1;
-  const record::ops::Segment &before = segments.at(segment_), &after = segments.at(now);
-  segment_ = now;
-  if (before.tool == after.tool && before.tool_axis == after.tool_axis && before.tool_file == after.tool_file)
-    return;
+  const size_t before = std::exchange(segment_, now);
+  if (same_reamer(segments.at(before), segments.at(now))) return;
   const shell::Tool tool = tool_of_segment(recording_, now);
   hello_.tool = tool.mesh;
   hello_.tool_name = tool.name;

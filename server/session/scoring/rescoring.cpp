@@ -47,6 +47,9 @@ void Rescorer::load_case(const record::Recording& recording) {
 
 void Rescorer::measure_start(const record::Recording& recording) {
   const record::ops::Header& header = recording.header();
+  if (recording.segments().empty())
+    throw Error(ErrorKind::invalid_input,
+                recording.log().path().string() + " does not say which reamer was used");
   const record::ops::Segment& last = recording.segments().back();
   const std::string said =
       nlohmann::json{header.plan, header.anatomy, last.tool, last.tool_axis, last.tool_file}.dump();

@@ -119,9 +119,9 @@ REAM_EXPORT(twin_whole_triangles_at) uint32_t twin_whole_triangles_at() {
   return address_of(whole().triangles);
 }
 
-/// TwinPlayer::keep_moment; all bits set where there is none.
-REAM_EXPORT(twin_keep_moment) uint32_t twin_keep_moment() {
-  return static_cast<uint32_t>(player().keep_moment().value_or(UINT32_MAX));
+/// TwinPlayer::keep_snapshot; all bits set where there is none.
+REAM_EXPORT(twin_keep_snapshot) uint32_t twin_keep_snapshot() {
+  return static_cast<uint32_t>(player().keep_snapshot().value_or(UINT32_MAX));
 }
 /// TwinPlayer::go_to: 1 or 0.
-REAM_EXPORT(twin_go_to) uint32_t twin_go_to(uint32_t moment) { return player().go_to(moment); }
+REAM_EXPORT(twin_go_to) uint32_t twin_go_to(uint32_t snapshot) { return player().go_to(snapshot); }

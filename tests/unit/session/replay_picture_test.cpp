@@ -34,6 +34,12 @@ Surfaces surfaces_of(const voxel::VoxelGrid& grid, const std::vector<uint8_t>& c
   return surfaces;
 }
 
+std::array<double, 7> place_in(const wire::Pose& pose) {
+  const wire::Quat& q = pose.rotation();
+  const wire::Vec3& t = pose.translation_mm();
+  return {q.x(), q.y(), q.z(), q.w(), t.x(), t.y(), t.z()};
+}
+
 /// A viewer who keeps what telemetry says, too.
 struct ReplayViewer {
   std::shared_ptr<stream::Mailbox> mailbox;
@@ -41,7 +47,8 @@ struct ReplayViewer {
   std::vector<std::pair<uint32_t, float>> trace;  ///< tick and thrust, of the newest jump
   std::vector<uint32_t> strides;                  ///< of the batches of the newest jump
   uint32_t jump = 0, position_ticks = 0;
-  float depth_mm = 0, removed_mm3 = 0;
+  float depth_mm = 0, removed_mm3 = 0, hand_force_n = 0, spindle_speed_rad_s = 0;
+  std::array<double, 7> tool_place{}, handle_place{};
   bool playing = false, always_replaying = true;
   std::string tool;
   wire::SessionState state = wire::SessionState::created;
@@ -71,6 +78,10 @@ struct ReplayViewer {
     state = t.state();
     depth_mm = t.depth_mm();
     removed_mm3 = t.removed_volume_mm3();
+    tool_place = place_in(*t.world_from_tool());
+    handle_place = place_in(*t.world_from_handle());
+    hand_force_n = t.hand_force_n()->Get(t.hand_force_n()->size() - 1);
+    spindle_speed_rad_s = t.spindle_speed_rad_s();
     strides.push_back(t.tick_stride());
     for (uint32_t i = 0; i < t.thrust_n()->size(); ++i)
       trace.emplace_back(t.first_tick() + i * t.tick_stride(), t.thrust_n()->Get(i));
@@ -196,34 +207,45 @@ TEST_F(ReplayPictureTest, TheStreamOfAFileSaysTheSame) {
   constexpr uint32_t interval_ticks = 20;
   stream::HelloInfo hello;
   hello.grid = before_.bone.grid;
-  const std::vector<RecordedMessage> messages =
-      recorded_stream(*recording_, before_, native_, hello, interval_ticks, no_progress);
-  ASSERT_NE(wire::GetServerMessage(messages.front().message->data())->body_as_Hello(), nullptr);
   std::string tool = "sphere 10";
-  uint32_t next = 0, compared = 0;
-  for (const RecordedMessage& each : std::span(messages).subspan(1)) {
-    const wire::ServerMessage* m = wire::GetServerMessage(each.message->data());
-    if (const wire::ToolChange* change = m->body_as_ToolChange()) {
-      tool = change->tool_name()->str();
-      EXPECT_EQ(each.at_ticks, reamer_changed_at + 1);
-      continue;
+  uint32_t next = 0, compared = 0, hellos = 0;
+  const auto take = [&](RecordedMessage kind, uint32_t at_ticks, const stream::Message& message) {
+    const wire::ServerMessage* m = wire::GetServerMessage(message->data());
+    if (kind == RecordedMessage::hello) {
+      ASSERT_NE(m->body_as_Hello(), nullptr);
+      EXPECT_EQ(m->body_as_Hello()->duration_ticks(), ticks_in_all);
+      EXPECT_EQ(m->body_as_Hello()->tool_name()->str(), tool);
+      ++hellos;
+      return;
+    }
+    if (kind == RecordedMessage::tool) {
+      ASSERT_NE(m->body_as_ToolChange(), nullptr);
+      tool = m->body_as_ToolChange()->tool_name()->str();
+      EXPECT_EQ(at_ticks, reamer_changed_at + 1);
+      return;
     }
     const wire::Telemetry* t = m->body_as_Telemetry();
     ASSERT_NE(t, nullptr);
-    EXPECT_EQ(each.at_ticks, std::min(next, ticks_in_all));
-    next = each.at_ticks + interval_ticks;
-    if (each.at_ticks % 300 != 0 && each.at_ticks != ticks_in_all) continue;
+    EXPECT_EQ(at_ticks, std::min(next, ticks_in_all));
+    next = at_ticks + interval_ticks;
+    if (at_ticks % 300 != 0 && at_ticks != ticks_in_all) return;
     ++compared;
-    jump(each.at_ticks);
+    jump(at_ticks);
     EXPECT_EQ(t->playback()->position_ticks(), viewer_.position_ticks);
     EXPECT_EQ(t->state(), wire::SessionState::replaying);
-    EXPECT_EQ(tool, viewer_.tool) << each.at_ticks;
-    EXPECT_FLOAT_EQ(t->removed_volume_mm3(), viewer_.removed_mm3) << each.at_ticks;
-    EXPECT_FLOAT_EQ(t->depth_mm(), viewer_.depth_mm) << each.at_ticks;
-    if (each.at_ticks > 0) {
-      EXPECT_EQ(t->tick(), each.at_ticks - 1);
+    EXPECT_EQ(tool, viewer_.tool) << at_ticks;
+    EXPECT_FLOAT_EQ(t->removed_volume_mm3(), viewer_.removed_mm3) << at_ticks;
+    EXPECT_FLOAT_EQ(t->depth_mm(), viewer_.depth_mm) << at_ticks;
+    EXPECT_EQ(place_in(*t->world_from_tool()), viewer_.tool_place) << at_ticks;
+    EXPECT_EQ(place_in(*t->world_from_handle()), viewer_.handle_place) << at_ticks;
+    EXPECT_EQ(t->hand_force_n()->Get(0), viewer_.hand_force_n) << at_ticks;
+    EXPECT_EQ(t->spindle_speed_rad_s(), viewer_.spindle_speed_rad_s) << at_ticks;
+    if (at_ticks > 0) {
+      EXPECT_EQ(t->tick(), at_ticks - 1);
     }
-  }
+  };
+  recorded_stream(*recording_, before_, native_, hello, ticks_in_all, interval_ticks, take, no_progress);
+  EXPECT_EQ(hellos, 1u);
   EXPECT_GT(compared, 10u);
   EXPECT_EQ(next, ticks_in_all + interval_ticks) << "the last moment, too";
   EXPECT_EQ(tool, "sphere 8");

@@ -189,7 +189,7 @@ TEST_F(CauseExport, AMomentThatWasKeptIsGoneBackToWhole) {
   ASSERT_NE(bone_after.front(), bone_after.back());
   std::mt19937 random(seed());
   TwinPlayer player;
-  std::vector<size_t> next_of_moment;
+  std::vector<size_t> next_of_snapshot;
   size_t next = 0, furthest = 0;
   const auto surfaces = [](twin::BoneTwin& twin) {
     std::vector<surface::BlockMesh> meshes;
@@ -199,21 +199,21 @@ TEST_F(CauseExport, AMomentThatWasKeptIsGoneBackToWhole) {
   };
   std::vector<surface::BlockMesh> shown;
   for (int round = 0; round < 40; ++round) {
-    if (!next_of_moment.empty() && random() % 2 == 0) {
-      const size_t moment = random() % next_of_moment.size();
+    if (!next_of_snapshot.empty() && random() % 2 == 0) {
+      const size_t moment = random() % next_of_snapshot.size();
       ASSERT_TRUE(player.go_to(moment));
-      next = next_of_moment[moment];
+      next = next_of_snapshot[moment];
     }
     for (size_t steps = random() % 8; steps > 0 && next < course.parts.size(); --steps) {
       ASSERT_EQ(player.take(course.parts[next]), Outcome::agrees);
       ++next;
-      const bool is_moment =
-          std::find(next_of_moment.begin(), next_of_moment.end(), next) != next_of_moment.end();
-      if (is_moment || (next > furthest && next % 3 == 0)) {
-        const auto moment = player.keep_moment();
+      const bool is_snapshot =
+          std::find(next_of_snapshot.begin(), next_of_snapshot.end(), next) != next_of_snapshot.end();
+      if (is_snapshot || (next > furthest && next % 3 == 0)) {
+        const auto moment = player.keep_snapshot();
         ASSERT_TRUE(moment);
-        if (*moment == next_of_moment.size()) next_of_moment.push_back(next);
-        EXPECT_EQ(next_of_moment.at(*moment), next) << "it is the one that was kept here";
+        if (*moment == next_of_snapshot.size()) next_of_snapshot.push_back(next);
+        EXPECT_EQ(next_of_snapshot.at(*moment), next) << "it is the one that was kept here";
       }
       furthest = std::max(furthest, next);
     }
@@ -229,8 +229,47 @@ TEST_F(CauseExport, AMomentThatWasKeptIsGoneBackToWhole) {
       ASSERT_TRUE(shown[block].vertices == now[block].vertices && shown[block].indices == now[block].indices)
           << "block " << block;
   }
-  EXPECT_GT(next_of_moment.size(), 2u);
-  EXPECT_FALSE(player.go_to(next_of_moment.size())) << "no such moment";
+  EXPECT_GT(next_of_snapshot.size(), 2u);
+  EXPECT_FALSE(player.go_to(next_of_snapshot.size())) << "no such moment";
+}
+
+/// Maps go by the order of its vertices.
+TEST_F(CauseExport, TheWholeSurfaceIsThatOfTheProgramsFiles) {
+  TwinPlayer player;
+  for (const twin::Bytes& part :
+       parts_of(causes_of(reaming_, reaming_.record(RecordedReaming::push("ideal")))))
+    ASSERT_EQ(player.take(part), Outcome::agrees);
+  const TriangleMesh ours = player.twin()->whole_surface();
+  const voxel::BoneModel& bone = player.twin()->bone();
+  const TriangleMesh files = surface::whole_surface(bone.grid, bone.coverage.data());
+  EXPECT_GT(files.triangles.size(), 1000u);
+  EXPECT_TRUE(ours.vertices_mm == files.vertices_mm);
+  EXPECT_TRUE(ours.normals == files.normals);
+  EXPECT_TRUE(ours.triangles == files.triangles);
+}
+
+/// A damaged part changes nothing, one that differs is taken back.
+TEST_F(CauseExport, ASnapshotIsThereAfterPartsThatAreNoGood) {
+  const Course course =
+      course_of(parts_of(causes_of(reaming_, reaming_.record(RecordedReaming::push("ideal")))));
+  ASSERT_GT(course.parts.size(), 7u);
+  for (const Outcome wrong : {Outcome::damaged, Outcome::differs}) {
+    TwinPlayer player;
+    for (size_t i = 0; i < 5; ++i) ASSERT_EQ(player.take(course.parts[i]), Outcome::agrees);
+    const auto kept = player.keep_snapshot();
+    ASSERT_TRUE(kept);
+    const std::vector<uint8_t> bone = player.twin()->bone().coverage;
+    twin::Bytes bad = course.parts[5];
+    if (wrong == Outcome::damaged)
+      bad.resize(bad.size() / 2);
+    else
+      bad[9] ^= std::byte{1};  // of the hash
+    EXPECT_EQ(player.take(bad), wrong);
+    EXPECT_FALSE(player.keep_snapshot());
+    ASSERT_TRUE(player.go_to(*kept));
+    EXPECT_TRUE(player.twin()->bone().coverage == bone);
+    for (size_t i = 5; i < course.parts.size(); ++i) ASSERT_EQ(player.take(course.parts[i]), Outcome::agrees);
+  }
 }
 
 /// As a server's replay tells them, of the same bone.

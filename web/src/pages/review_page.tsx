@@ -31,7 +31,7 @@ export function ReviewPage({ route }: { route: Route & { kind: 'review' } }) {
   const { origin } = window.location;
   const review = useMemo(() => new ReviewApi(origin), [origin]);
   const workspace = useMemo(
-    () => new ReviewWorkspace(() => servedSources(origin, review, may), true, may.ream),
+    () => new ReviewWorkspace(() => servedSources(origin, review, may), { served: true, mayAnnotate: may.ream }),
     [origin, review, may],
   );
   useEffect(() => () => workspace.dispose(), [workspace]);

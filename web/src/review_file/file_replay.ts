@@ -1,6 +1,6 @@
-import { StreamDecoder } from '../wire/decode';
-import type { StreamMessage, ToolMesh } from '../wire/messages';
-import type { Triple } from '../wire/pose';
+import { PartFileError } from '../twin/part_file';
+import type { StreamDecoder } from '../wire/decode';
+import type { Hello, StreamMessage, ToolMesh } from '../wire/messages';
 import type { PlaybackChange } from '../wire/rest_types';
 import type { Telemetry } from '../wire/telemetry';
 import type { TwinModule } from '../twin/twin_module';
@@ -15,79 +15,96 @@ const showEveryMs = 100;
 /** A recording that rests says so this often, ms: silence is a broken link. */
 const heartbeatMs = 500;
 
-interface Parts {
-  twin: TwinModule;
+export interface FileReplayParts {
+  hello: Hello;
+  /** That has decoded the hello. */
+  decoder: Pick<StreamDecoder, 'decode'>;
+  twin: Pick<TwinModule, 'take' | 'keepSnapshot' | 'goTo' | 'changedBlocks' | 'surfaceOf'>;
   /** Of the causes. */
   causes: readonly Uint8Array[];
-  /** The first is the hello. */
-  messages: readonly TimedMessage[];
+  telemetry: readonly TimedMessage[];
+  /** Other reamers than the hello's. */
+  tools: readonly TimedMessage[];
 }
 
-/** Shows a recording as a server's replay does, by the same messages; its bone comes from the twin. */
+/** Shows a recording as a server's replay does, by the same messages after the hello; its bone comes from the twin. */
 export class FileReplay {
-  private readonly decoder = new StreamDecoder();
   private readonly bone: BoneAt;
-  private readonly twin: TwinModule;
   private readonly playback: FilePlayback;
-  private readonly telemetry: readonly TimedMessage[];
   private readonly tools: readonly { atTicks: number; tool: ToolMesh }[];
-  private readonly spacingMm: Triple;
-  private tool: ToolMesh;
+  private tool: ToolMesh | undefined;
   private shownMs = -Infinity;
+  /** The state of what is shown; empty while it is on its way. */
   private shown = '';
+  private changes = 0;
 
-  /** Says hello and shows the bone before the first tick. Throws where the messages cannot be read. */
+  /** Shows the bone before the first tick. Throws where parts cannot be read. */
   constructor(
-    { twin, causes, messages }: Parts,
+    private readonly parts: FileReplayParts,
     private readonly send: (message: StreamMessage) => void,
   ) {
-    const [first, ...others] = messages;
-    const hello = first === undefined ? null : this.decoder.decode(first.bytes);
-    if (hello?.kind !== 'hello') throw new Error('the file does not begin with a hello');
-    const kinds = others.map((message) => ({ message, decoded: this.decoder.decode(message.bytes) }));
-    this.telemetry = kinds.flatMap(({ message, decoded }) => (decoded.kind === 'telemetry' ? [message] : []));
-    const changes = kinds.flatMap(({ message: { atTicks }, decoded }) =>
-      decoded.kind === 'tool' ? [{ atTicks, tool: decoded.tool }] : [],
-    );
-    this.tool = hello.hello.tool;
-    this.tools = [{ atTicks: 0, tool: copyOf(this.tool) }, ...changes];
-    this.spacingMm = hello.hello.voxelSpacingMm;
-    this.playback = new FilePlayback(hello.hello.durationTicks);
-    this.twin = twin;
+    const { hello, decoder, twin, causes, tools } = parts;
+    const changes = tools.flatMap(({ atTicks, bytes }) => {
+      const decoded = decoder.decode(bytes);
+      return decoded.kind === 'tool' ? [{ atTicks, tool: decoded.tool }] : [];
+    });
+    this.tools = [{ atTicks: 0, tool: copyOf(hello.tool) }, ...changes];
+    this.tool = this.tools[0]?.tool;
+    this.playback = new FilePlayback(hello.durationTicks);
     this.bone = new BoneAt(twin, causes);
-    this.tool = this.tools[0]?.tool ?? this.tool;
-    send(hello);
     this.sendBone(true);
-    this.sendMoment(0);
+    this.sendMoment(0, -Infinity);
   }
 
-  /** Whether the bone could be computed so far. */
-  get agrees(): boolean {
-    return this.bone.agrees;
+  /** Whether a part of the recording contradicts itself, so that nothing is shown from there on. */
+  get stuck(): boolean {
+    return this.bone.limitTicks !== Infinity;
+  }
+
+  /** How many changes have been asked for, if what they led to is shown; else null. */
+  get reached(): number | null {
+    return this.shown === '' ? null : this.changes;
   }
 
   change(change: PlaybackChange): void {
+    ++this.changes;
+    this.shown = '';
     this.playback.change(change);
   }
 
   /** Lets time pass, and shows what has come of it; true when there is more to compute. */
   advance(ms: number, nowMs: number): boolean {
-    this.playback.advance(ms);
-    const { positionTicks, playing, speed, jump } = this.playback.now;
-    const there = this.bone.goTowards(positionTicks, sliceMs);
-    const state = [positionTicks, playing, speed, jump].join();
+    // The clock waits for the bone, so that nothing is passed over.
+    if (this.shown !== '') this.playback.advance(ms);
+    if (this.playback.now.positionTicks > this.bone.limitTicks) this.playback.restAt(this.bone.limitTicks);
+    const { positionTicks } = this.playback.now;
     const sinceMs = nowMs - this.shownMs;
-    if (there ? state === this.shown && sinceMs < heartbeatMs : sinceMs < showEveryMs) return !there;
-    this.sendTool(positionTicks);
+    if (this.shown === this.state) {
+      // It rests, and what is shown is of here, wherever the bone is then.
+      if (sinceMs >= heartbeatMs) this.sendMoment(positionTicks, nowMs);
+      return this.bone.lookAhead(sliceMs);
+    }
+    const there = this.bone.goTowards(positionTicks, sliceMs);
+    if (!there && sinceMs < showEveryMs) {
+      this.shown = '';
+      return true;
+    }
+    const ticks = there ? Math.min(positionTicks, this.bone.limitTicks) : this.bone.ticks;
+    this.sendTool(ticks);
     this.sendBone(false);
-    this.sendMoment(there ? positionTicks : this.bone.ticks);
-    this.shown = there ? state : '';
-    this.shownMs = nowMs;
+    this.sendMoment(ticks, nowMs);
+    this.shown = there ? this.state : '';
     return !there;
   }
 
+  private get state(): string {
+    const { positionTicks, playing, speed, jump } = this.playback.now;
+    return [positionTicks, playing, speed, jump].join();
+  }
+
   private sendBone(first: boolean): void {
-    const blocks = [...this.twin.changedBlocks()].map((block) => this.twin.surfaceOf(block, this.spacingMm));
+    const { twin, hello } = this.parts;
+    const blocks = [...twin.changedBlocks()].map((block) => twin.surfaceOf(block, hello.voxelSpacingMm));
     if (first || blocks.length > 0) this.send({ kind: 'mesh', mesh: { blocks, keyComplete: first } });
   }
 
@@ -98,11 +115,11 @@ export class FileReplay {
     this.send({ kind: 'tool', tool: copyOf(now) });
   }
 
-  private sendMoment(ticks: number): void {
-    const message = lastAt(this.telemetry, ticks);
-    if (message === undefined) return;
-    const decoded = this.decoder.decode(message.bytes);
-    if (decoded.kind !== 'telemetry') return;
+  private sendMoment(ticks: number, nowMs: number): void {
+    this.shownMs = nowMs;
+    const message = lastAt(this.parts.telemetry, ticks);
+    const decoded = message === undefined ? null : this.parts.decoder.decode(message.bytes);
+    if (decoded?.kind !== 'telemetry') throw new PartFileError(`the file says nothing of tick ${ticks}`);
     const telemetry: Telemetry = { ...decoded.telemetry, playback: { ...this.playback.now, positionTicks: ticks } };
     this.send({ kind: 'telemetry', telemetry });
   }

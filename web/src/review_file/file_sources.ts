@@ -10,14 +10,14 @@ import type { PlaybackChange, Replay, Session } from '../wire/rest_types';
 import { ApiError } from '../wire/rest';
 import type { DeviationBytes, MapName } from '../wire/review_api';
 import type { SortedSurface } from '../wire/sorted_surface';
+import type { StreamMessage } from '../wire/messages';
 import type { StreamHandlers, StreamSocket } from '../wire/stream_socket';
+import type { Obstacle } from './obstacle';
 import type { ReplayReport, ReplayRequest } from './replay_worker';
 import ReplayWorker from './replay_worker?worker&inline';
 import type { ReviewParts } from './review_parts';
 import type { SurfaceReport, SurfaceRequest } from './surface_worker';
 import SurfaceWorker from './surface_worker?worker&inline';
-
-const mostSteps = 127;
 
 /** All that a review file holds. */
 export interface ReviewFile extends ReviewParts {
@@ -56,31 +56,36 @@ export function fileSources(file: ReviewFile): OpenSources {
             .filter(({ kind }) => kind === 'annotation')
             .map(({ at_s, words }) => ({ at_s, words, author: '', utc: '', place_mm: null })),
         ),
-      annotate: () => Promise.reject(new ApiError(reviewText.fileIsKept, 409)),
       deviation: (_id, to) => deviationOf(file, to),
     },
     surface: (_id, onProgress, signal) => surfaceLeft(file, onProgress, signal),
     mayReadTrace: true,
   };
-  return { sources, dispose: () => player.dispose() };
+  return {
+    sources,
+    follow(session) {
+      player.onWarning = (words) => (session.store.recordingWarning.value = words);
+      return { liveCase: null, dispose: () => (player.onWarning = () => undefined) };
+    },
+    dispose: () => player.dispose(),
+  };
 }
 
 function deviationOf({ maps, facts: { map } }: ReviewFile, to: MapName): Promise<DeviationBytes> {
   const bytes = maps.get(to);
   if (bytes === undefined) return Promise.reject(new ApiError(reviewText.fileHasNoMap, 404));
-  const stepMm = to === 'wall' ? map.wall_step_mm : map.step_mm;
-  return Promise.resolve({ bytes, code: { stepMm, rangeMm: mostSteps * stepMm, unknown: map.unknown } });
+  const [stepMm, rangeMm] = to === 'wall' ? [map.wall_step_mm, map.wall_range_mm] : [map.step_mm, map.range_mm];
+  return Promise.resolve({ bytes, code: { stepMm, rangeMm, unknown: map.unknown } });
 }
 
 /** The bone as it was left, computed from its causes. */
 function surfaceLeft(
-  { module, causes, messages, facts }: ReviewFile,
+  { module, causes, hello, facts }: ReviewFile,
   onProgress: (share: number) => void,
   signal: AbortSignal,
 ): Promise<SortedSurface> {
-  const failed = () => new ApiError(reviewText.fileDamaged, 422);
-  const hello = messages[0]?.bytes;
-  if (hello === undefined) return Promise.reject(failed());
+  // In its own words: no server has said anything.
+  const failed = (obstacle: Obstacle) => new Error(obstacleWords[obstacle]);
   return askWorker<SurfaceRequest, SurfaceReport, SortedSurface>(
     () => new SurfaceWorker(),
     { module, causes, hello },
@@ -88,35 +93,53 @@ function surfaceLeft(
     (report, { resolve, reject }) => {
       if (report.kind === 'ticks') onProgress(report.ticks / Math.max(facts.ticks, 1));
       else if (report.kind === 'surface') resolve(report.surface);
-      else reject(failed());
+      else reject(failed(report.obstacle));
     },
-    ({ reject }) => reject(failed()),
+    ({ reject }) => reject(failed('browser')),
   );
 }
 
+const obstacleWords: Record<Obstacle, string> = {
+  file: reviewText.fileDamaged,
+  browser: reviewText.notVerified.browser,
+};
+
 /** The recording as a worker plays it: both what is asked of a replay, and its stream. */
 class ReplayOfFile implements StreamSocket {
+  onWarning: (words: string) => void = () => undefined;
   private worker: Worker | null = null;
-  private warning: string | null = null;
+  private warning: string | null;
   /** Why it cannot be played. */
   private refusal: ApiError | null = null;
+  /** Where it stood last; there another worker goes on. */
+  private last: PlaybackChange = {};
+  /** Changes that this worker has been sent. */
+  private changes = 0;
+  private waiting: { change: number; resolve: () => void }[] = [];
 
-  constructor(private readonly file: ReviewFile) {}
+  constructor(private readonly file: ReviewFile) {
+    this.warning = file.facts.warning || null;
+  }
 
   openReplay(): Promise<Replay> {
     const { refusal } = this;
     this.refusal = null;
-    if (refusal !== null) return Promise.reject(refusal);
-    return Promise.resolve(this.described());
+    return refusal === null ? Promise.resolve(this.described()) : Promise.reject(refusal);
   }
   replay(): Promise<Replay> {
     // Then it is opened again, and refused.
     if (this.refusal !== null) return Promise.reject(new ApiError('', 404));
     return Promise.resolve(this.described());
   }
-  changePlayback(_id: string, change: PlaybackChange): Promise<Replay> {
-    this.send({ kind: 'change', change });
-    return Promise.resolve(this.described());
+  /** A place that is sought has been reached then, so that the slider waits for it. */
+  async changePlayback(_id: string, change: PlaybackChange): Promise<Replay> {
+    this.last = { ...this.last, ...change };
+    this.change(change);
+    if (this.worker !== null && change.position_s !== undefined) {
+      const number = this.changes;
+      await new Promise<void>((resolve) => this.waiting.push({ change: number, resolve }));
+    }
+    return this.described();
   }
   streamUrl(): string {
     return '';
@@ -126,30 +149,54 @@ class ReplayOfFile implements StreamSocket {
     this.close();
     const worker = new ReplayWorker();
     this.worker = worker;
+    this.changes = 0;
+    const refuse = (obstacle: Obstacle) => {
+      this.refusal = new ApiError(obstacleWords[obstacle], unreadableFile);
+      handlers.onClosed(obstacleWords[obstacle]);
+    };
     worker.onmessage = ({ data }: MessageEvent<ReplayReport>) => {
       if (worker !== this.worker) return;
-      if (data.kind === 'message') handlers.onMessage(data.message);
-      else if (data.kind === 'stuck') this.warning = reviewText.notAgreeingFile;
-      else refuse(reviewText.fileDamaged);
+      if (data.kind === 'message') {
+        this.noteWhere(data.message);
+        handlers.onMessage(data.message);
+      } else if (data.kind === 'reached') this.settle(data.changes);
+      else if (data.kind === 'stuck') this.onWarning((this.warning = reviewText.notAgreeingFile));
+      else refuse(data.obstacle);
     };
     worker.onerror = () => {
-      if (worker === this.worker) refuse(reviewText.notVerified.browser);
+      if (worker === this.worker) refuse('browser');
     };
-    const refuse = (words: string) => {
-      this.refusal = new ApiError(words, unreadableFile);
-      handlers.onClosed(words);
-    };
-    const { module, causes, messages } = this.file;
-    this.send({ kind: 'open', module, causes, messages });
+    const { module, causes, hello, telemetry, tools } = this.file;
+    this.send({ kind: 'open', module, causes, hello, telemetry, tools });
+    if (this.last.position_s !== undefined) this.change(this.last);
   }
 
   close(): void {
     this.worker?.terminate();
     this.worker = null;
+    this.settle(Infinity);
   }
 
   dispose(): void {
     this.close();
+  }
+
+  private noteWhere(message: StreamMessage): void {
+    if (message.kind !== 'telemetry' || message.telemetry.playback === null || this.waiting.length > 0) return;
+    const { positionTicks, playing, speed } = message.telemetry.playback;
+    this.last = { position_s: positionTicks / 1000, playing, speed };
+  }
+
+  private settle(changes: number): void {
+    const done = this.waiting.filter(({ change }) => change <= changes);
+    this.waiting = this.waiting.filter(({ change }) => change > changes);
+    for (const { resolve } of done) resolve();
+  }
+
+  private change(change: PlaybackChange): void {
+    if (this.worker === null) return;
+    ++this.changes;
+    this.send({ kind: 'change', change });
   }
 
   private send(request: ReplayRequest): void {

@@ -21,7 +21,10 @@ import { fileSources, fileVerification, type ReviewFile } from './file_sources';
 /** The session that this page itself holds. */
 export function ReviewFilePage({ file }: { file: ReviewFile }) {
   const { session, program } = file.facts;
-  const workspace = useMemo(() => new ReviewWorkspace(() => fileSources(file), false, false), [file]);
+  const workspace = useMemo(
+    () => new ReviewWorkspace(() => fileSources(file), { served: false, mayAnnotate: false }),
+    [file],
+  );
   const verification = useMemo(() => fileVerification(file), [file]);
   useEffect(() => {
     workspace.show([session.id]);

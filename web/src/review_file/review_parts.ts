@@ -30,7 +30,10 @@ export interface ReviewFacts {
   ticks: number;
   /** CSV of the timeline. */
   trace: string;
-  map: { step_mm: number; wall_step_mm: number; unknown: number };
+  /** What of the recording is left out; empty: nothing. */
+  warning: string;
+  /** Steps and ranges of the maps' bytes, mm. */
+  map: { step_mm: number; range_mm: number; wall_step_mm: number; wall_range_mm: number; unknown: number };
 }
 
 /** A message of the stream that holds when so many ticks have passed. */
@@ -39,18 +42,22 @@ export interface TimedMessage {
   bytes: Uint8Array<ArrayBuffer>;
 }
 
-/** A review file's parts (session/export/review_file.hpp) but for its causes. */
+/** A review file's parts (proto/causes.md) but for its causes; messages in order of time. */
 export interface ReviewParts {
   facts: ReviewFacts;
-  /** In order; the first is the hello. */
-  messages: TimedMessage[];
+  /** The stream's first message. */
+  hello: Uint8Array<ArrayBuffer>;
+  telemetry: readonly TimedMessage[];
+  tools: readonly TimedMessage[];
   maps: ReadonlyMap<MapName, Int8Array<ArrayBuffer>>;
 }
 
 /** Reads them. Throws PartFileError, SyntaxError or TypeError for a file that is damaged. */
 export async function readReviewParts(packed: Uint8Array<ArrayBuffer>): Promise<ReviewParts> {
   let facts: ReviewFacts | null = null;
-  const messages: TimedMessage[] = [];
+  let hello: Uint8Array<ArrayBuffer> | null = null;
+  const telemetry: TimedMessage[] = [];
+  const tools: TimedMessage[] = [];
   const maps = new Map<MapName, Int8Array<ArrayBuffer>>();
   for await (const part of partsOf(reviewFile, new Blob([packed]).stream())) {
     // Copied: a part is a view of the whole file.
@@ -60,10 +67,15 @@ export async function readReviewParts(packed: Uint8Array<ArrayBuffer>): Promise<
         facts = JSON.parse(new TextDecoder().decode(body)) as ReviewFacts;
         break;
       case 2:
-        if (body.length < 4) throw new PartFileError('a message is too short');
-        messages.push({ atTicks: new DataView(body.buffer).getUint32(0, true), bytes: body.slice(4) });
+        hello = body;
         break;
-      case 3: {
+      case 3:
+        telemetry.push(timed(body));
+        break;
+      case 4:
+        tools.push(timed(body));
+        break;
+      case 5: {
         const name = mapNames[body[0] ?? mapNames.length];
         if (name !== undefined) maps.set(name, new Int8Array(body.buffer.slice(1)));
         break;
@@ -73,6 +85,13 @@ export async function readReviewParts(packed: Uint8Array<ArrayBuffer>): Promise<
         throw new PartFileError(`a part has the code ${String(part[0])}`);
     }
   }
-  if (facts === null || messages.length === 0) throw new PartFileError('the file is cut short');
-  return { facts, messages, maps };
+  if (facts === null || hello === null || telemetry.length === 0) throw new PartFileError('the file is cut short');
+  return { facts, hello, telemetry, tools, maps };
+}
+
+const tickBytes = 4;
+
+function timed(body: Uint8Array<ArrayBuffer>): TimedMessage {
+  if (body.length < tickBytes) throw new PartFileError('a message is too short');
+  return { atTicks: new DataView(body.buffer).getUint32(0, true), bytes: body.slice(tickBytes) };
 }

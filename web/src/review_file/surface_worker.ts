@@ -2,12 +2,13 @@
 import { Box3, BufferAttribute, BufferGeometry } from 'three';
 
 import { poseMatrix } from '../scene/pose_matrix';
-import { causeFile, partsOf } from '../twin/part_file';
+import { causeFile, PartFileError, partsOf } from '../twin/part_file';
 import { type GridSurface, TwinModule } from '../twin/twin_module';
 import { StreamDecoder } from '../wire/decode';
 import type { Surface } from '../wire/ply';
 import type { Pose } from '../wire/pose';
 import { sortedSurface, type SortedSurface } from '../wire/sorted_surface';
+import { type Obstacle, obstacleOf } from './obstacle';
 
 export interface SurfaceRequest {
   module: Blob;
@@ -18,18 +19,20 @@ export interface SurfaceRequest {
 
 /** The last is the surface, or that it cannot be computed. */
 export type SurfaceReport =
-  { kind: 'ticks'; ticks: number } | { kind: 'surface'; surface: SortedSurface } | { kind: 'failed' };
+  | { kind: 'ticks'; ticks: number }
+  | { kind: 'surface'; surface: SortedSurface }
+  | { kind: 'failed'; obstacle: Obstacle };
 
 const page = self as unknown as { postMessage(report: SurfaceReport, transfer?: ArrayBuffer[]): void };
 const reportEveryMs = 250;
 
 async function computed({ module, causes, hello }: SurfaceRequest): Promise<void> {
   const first = new StreamDecoder().decode(hello);
-  if (first.kind !== 'hello') throw new Error('the file does not begin with a hello');
+  if (first.kind !== 'hello') throw new PartFileError('the file does not begin with a hello');
   const twin = await TwinModule.load(await module.arrayBuffer());
   let told = performance.now();
   for await (const part of partsOf(causeFile, causes.stream())) {
-    if (twin.take(part) !== 'agrees') throw new Error('the causes do not agree with their hashes');
+    if (twin.take(part) !== 'agrees') throw new PartFileError('the causes do not agree with their hashes');
     if (performance.now() - told < reportEveryMs) continue;
     told = performance.now();
     page.postMessage({ kind: 'ticks', ticks: twin.agreedTicks });
@@ -51,6 +54,6 @@ function inWorld({ positions, normals, indices }: GridSurface, worldFromGrid: Po
 self.onmessage = ({ data }: MessageEvent<SurfaceRequest>) => {
   computed(data).catch((error: unknown) => {
     console.error(error);
-    page.postMessage({ kind: 'failed' });
+    page.postMessage({ kind: 'failed', obstacle: obstacleOf(error) });
   });
 };

@@ -33,10 +33,7 @@ export const reviewText = {
       text: (reason: string) =>
         `It is damaged or was never written: ${reason} The known part of the score is still shown. For details, run “ream replay SESSION” on the server.`,
     },
-    file: {
-      title: 'The session in this file cannot be shown',
-      text: (reason: string) => reason,
-    },
+    fileTitle: 'The session in this file cannot be shown',
     forbidden: {
       title: 'You have no access to this session',
       text: 'It belongs to someone else. Ask an instructor for a viewer link, or log in as its trainee.',
@@ -246,7 +243,6 @@ export const reviewText = {
   fileOpening: 'Opening the session…',
   fileDamaged: 'This file is damaged. Export the session again.',
   fileNotOpened: 'The session in this file could not be opened. The file is damaged, or this browser is too old.',
-  fileIsKept: 'A review file cannot be changed.',
   fileHasNoMap: 'the session has nothing to compare with',
   verificationRefused: (reason: string) => `The session could not be verified: ${reason}`,
   filesForbidden: 'Viewer links do not offer files. Log in to download them.',
@@ -278,7 +274,5 @@ export const reviewText = {
     ['Q', 'choose which of two sessions the keys control'],
     ['Esc', 'close the explanation of a metric'],
   ] as const,
-  /** Of a review without slices and without a second session. */
-  keysOfServed: ['T', 'Q'] as readonly string[],
   keysFor: (number: number) => `Keys K , . B D control session ${number}.`,
 };

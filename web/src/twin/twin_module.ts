@@ -5,6 +5,7 @@ import type { Surface } from '../wire/ply';
 import type { Triple } from '../wire/pose';
 
 const vertexBytes = 8;
+const none = 0xffffffff;
 
 /** What the twin's WebAssembly exports (server/twin/wasm/exports.cpp); addresses are of its memory. */
 interface TwinExports {
@@ -15,8 +16,8 @@ interface TwinExports {
   twin_agreed_ticks(): number;
   twin_ended(): number;
   twin_recorded_ticks(): number;
-  twin_keep_moment(): number;
-  twin_go_to(moment: number): number;
+  twin_keep_snapshot(): number;
+  twin_go_to(snapshot: number): number;
   twin_find_changed_blocks(): number;
   twin_blocks_at(): number;
   twin_make_surface(block: number): number;
@@ -63,14 +64,15 @@ export class TwinModule {
     return outcomes[this.twin.twin_take()] ?? 'damaged';
   }
 
-  /** Keeps what has been computed, for goTo(); its number. Of parts that agree only. */
-  keepMoment(): number {
-    return this.twin.twin_keep_moment() >>> 0;
+  /** Keeps what has been computed, for goTo(); its number. Null where parts do not agree, and after the end. */
+  keepSnapshot(): number | null {
+    const number = this.twin.twin_keep_snapshot() >>> 0;
+    return number === none ? null : number;
   }
 
-  /** The next part to be taken is the one that came after that moment. */
-  goTo(moment: number): boolean {
-    return this.twin.twin_go_to(moment) === 1;
+  /** The next part to be taken is the one that came after that snapshot. */
+  goTo(snapshot: number): boolean {
+    return this.twin.twin_go_to(snapshot) === 1;
   }
 
   /** Blocks whose surface may have changed since the last call; all of them at first. */

@@ -23,19 +23,21 @@ class StrictTwin {
   readonly moments: number[] = [];
   ticks = 0;
   taken = 0;
+  startIs: Outcome = 'agrees';
   private passed = 0;
 
   constructor(private readonly differsAt = Infinity) {}
 
   take(part: Uint8Array): Outcome {
     ++this.taken;
+    if (part[0] === 1) return this.startIs;
     if (part[0] !== 3) return 'agrees';
     if (new DataView(part.buffer).getUint32(1, true) !== this.ticks) return 'damaged';
     if (this.ticks + 250 > this.differsAt) return 'differs';
     this.ticks += 250;
     return 'agrees';
   }
-  keepMoment(): number {
+  keepSnapshot(): number {
     if (this.passed === this.moments.length) this.moments.push(this.ticks);
     else expect(this.moments[this.passed], 'it is the moment that was kept').toBe(this.ticks);
     return this.passed++;
@@ -63,8 +65,29 @@ describe('The bone of a review file', () => {
       expect(bone.ticks).toBe(wanted - (wanted % 250));
       expect(twin.ticks).toBe(bone.ticks);
     }
-    expect(bone.agrees).toBe(true);
+    expect(bone.limitTicks).toBe(Infinity);
     expect(twin.moments.length).toBeGreaterThan(4);
+  });
+
+  it('is computed ahead while nothing else is asked for', () => {
+    const twin = new StrictTwin();
+    const bone = new BoneAt(twin, minute);
+    bone.goTowards(7100, 1e9);
+    let turns = 0;
+    let now = 0;
+    while (bone.lookAhead(10, () => ++now)) {
+      ++turns;
+      if (turns % 5 === 0) {
+        bone.goTowards(7100, 1e9);
+        expect(bone.ticks).toBe(7000);
+      }
+    }
+    expect(turns).toBeGreaterThan(5);
+    const before = twin.taken;
+    bone.goTowards(60_000, 1e9);
+    bone.goTowards(31_000, 1e9);
+    expect(twin.taken - before, 'moments are near').toBeLessThan(25);
+    expect(bone.lookAhead(10)).toBe(false);
   });
 
   it('goes back without computing all of it again', () => {
@@ -74,7 +97,7 @@ describe('The bone of a review file', () => {
     const before = twin.taken;
     bone.goTowards(59_000, 1e9);
     bone.goTowards(60_000, 1e9);
-    expect(twin.taken - before).toBeLessThan(90);
+    expect(twin.taken - before).toBeLessThan(40);
   });
 
   it('says that it is on its way when its time is over', () => {
@@ -85,13 +108,21 @@ describe('The bone of a review file', () => {
     expect(bone.ticks).toBeLessThan(60_000);
   });
 
-  it('stops where the causes contradict themselves, and still shows what is before', () => {
-    const twin = new StrictTwin(30_000);
+  it('ends at the last snapshot before causes that contradict themselves', () => {
+    const twin = new StrictTwin(31_250);
     const bone = new BoneAt(twin, minute);
     expect(bone.goTowards(60_000, 1e9)).toBe(true);
-    expect(bone.agrees).toBe(false);
-    expect(bone.ticks).toBe(30_000);
+    expect([bone.limitTicks, bone.ticks, twin.ticks]).toEqual([30_000, 30_000, 30_000]);
     expect(bone.goTowards(5000, 1e9)).toBe(true);
-    expect([bone.agrees, bone.ticks]).toEqual([true, 5000]);
+    expect(bone.ticks).toBe(5000);
+    expect(bone.goTowards(60_000, 1e9)).toBe(true);
+    expect(bone.ticks).toBe(30_000);
+    expect(bone.lookAhead(1e9)).toBe(false);
+  });
+
+  it('needs a bone to begin with', () => {
+    const twin = new StrictTwin();
+    twin.startIs = 'damaged';
+    expect(() => new BoneAt(twin, minute)).toThrow('do not begin with a bone');
   });
 });

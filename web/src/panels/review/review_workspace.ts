@@ -10,7 +10,7 @@ import { ReviewSettings } from '../../state/review/review_settings';
 export interface OpenSources {
   sources: ReviewSources;
   /** What is shown beside the session itself, once there is a picture. */
-  follow?(session: ReviewSession, view: ReviewView): { liveCase: LiveCase; dispose(): void };
+  follow?(session: ReviewSession, view: ReviewView): { liveCase: LiveCase | null; dispose(): void };
   dispose(): void;
 }
 
@@ -30,11 +30,17 @@ export class ReviewWorkspace {
   private readonly camera = new SharedCamera();
 
   constructor(
-    private readonly openSources: (id: string) => OpenSources,
-    /** Whether the page has a server, with other pages and other sessions. */
-    readonly served: boolean,
-    readonly mayAnnotate: boolean,
+    private readonly openSources: () => OpenSources,
+    private readonly page: { served: boolean; mayAnnotate: boolean },
   ) {}
+
+  /** Whether the page has a server, with other pages and other sessions. */
+  get served(): boolean {
+    return this.page.served;
+  }
+  get mayAnnotate(): boolean {
+    return this.page.mayAnnotate;
+  }
 
   /** What stays in its place stays as it is. */
   show(ids: readonly string[]): void {
@@ -56,7 +62,7 @@ export class ReviewWorkspace {
 
   private open(id: string): Pane {
     const view = new ReviewView(this.settings, this.camera);
-    const opened = this.openSources(id);
+    const opened = this.openSources();
     const session = new ReviewSession(id, opened.sources, view.scene);
     view.follow(session, () => this.panes.value[0]?.view === view);
     session.start();

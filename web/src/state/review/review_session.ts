@@ -28,7 +28,8 @@ export interface MeasuredPlace {
 
 export interface ReviewSources {
   api: Pick<Api, 'openReplay' | 'replay' | 'changePlayback' | 'streamUrl'>;
-  review: Pick<ReviewApi, 'session' | 'score' | 'trace' | 'deviation' | 'annotations' | 'annotate'>;
+  review: Pick<ReviewApi, 'session' | 'score' | 'trace' | 'deviation' | 'annotations'> &
+    Partial<Pick<ReviewApi, 'annotate'>>;
   socket: StreamSocket;
   surface(id: string, onProgress: (share: number) => void, signal: AbortSignal): Promise<SortedSurface>;
   /** A viewer link has no trace. */
@@ -167,7 +168,7 @@ export class ReviewSession {
   /** Keeps an annotation of the present moment; throws ApiError. */
   async annotate(text: string): Promise<void> {
     const atS = this.positionS.peek();
-    await this.sources.review.annotate(this.id, text, atS);
+    await this.sources.review.annotate?.(this.id, text, atS);
     await this.readAnnotations();
   }
 

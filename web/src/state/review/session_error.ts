@@ -22,7 +22,7 @@ export function sessionErrorOf({ status, message }: Pick<ApiError, 'status' | 'm
     case 422:
       return { kind: 'damaged', title: errors.damaged.title, text: errors.damaged.text(message) };
     case unreadableFile:
-      return { kind: 'damaged', title: errors.file.title, text: errors.file.text(message) };
+      return { kind: 'damaged', title: errors.fileTitle, text: message };
     case 403:
       return { kind: 'forbidden', ...errors.forbidden };
     case 0:
