@@ -9,6 +9,7 @@
 #include "ct/read/write_volume.hpp"
 #include "e2e/cli/serve_fixture.hpp"
 #include "support/identifier_search.hpp"
+#include "support/twin/review_parts.hpp"
 #include "unit/reader/changed_dicom.hpp"
 
 namespace ream::test {
@@ -271,13 +272,19 @@ std::string Deidentification::run_session(const std::string& id) {
 }
 
 void Deidentification::export_all(const std::string& session) {
+  write("web/review_file.html", "<!--ream:session-->");
   const std::string at = "/api/v1/sessions/" + session;
-  for (const char* format : {"pdf", "html", "csv", "ply", "glb", "stl", "surface", "png", "zip"}) {
+  for (const char* format :
+       {"pdf", "html", "csv", "ply", "glb", "stl", "surface", "png", "zip", "causes", "review"}) {
     const json job = done(ask(202, "POST", at + "/exports", {{"format", format}}));
     const HttpReply file =
         http_request(port_, "GET", "/api/v1/jobs/" + job.at("id").get<std::string>() + "/result");
     EXPECT_EQ(file.status, 200) << format << ' ' << file.body.substr(0, 200);
     write(std::string("downloads/export.") + format, file.body);
+    if (std::string_view(format) == "causes") write("downloads/causes.unpacked", gunzipped(file.body));
+    if (std::string_view(format) != "review") continue;
+    for (const char* id : {"ream-causes", "ream-review"})
+      write(std::string("downloads/") + id, held_by(file.body, id));
   }
   for (const char* part : {"", "/session.json", "/metrics", "/score", "/events"})
     answers_ += http_request(port_, "GET", at + part).body + '\n';

@@ -13,6 +13,7 @@
 #include "support/recorded_reaming.hpp"
 #include "support/seed.hpp"
 #include "support/twin/cause_file.hpp"
+#include "support/twin/killed_recording.hpp"
 #include "twin/twin_player.hpp"
 
 namespace ream::test {
@@ -87,24 +88,9 @@ TEST_F(CauseExport, AMovedReamerIsFoundWithinTheHashThatStandsForIt) {
   EXPECT_EQ(player.agreed_ticks(), 1000u);
 }
 
-/// What a program that is killed leaves: ticks whose bricks never came, and no end.
 TEST_F(CauseExport, OfAKilledSessionEndAtItsLastCheckpoint) {
   const auto recording = reaming_.record(RecordedReaming::push("ideal"));
-  const auto cut = reaming_.folder().path() / "killed.ream";
-  {
-    const record::OpLogReader reader(recording);
-    record::OpLogWriter writer(record::create_log_file(cut));
-    for (size_t i = 0; i < reader.chunks().size(); ++i) {
-      record::ops::read(reader.read_chunk(i), reader.revision(), [&](const auto& op) {
-        using Op = std::remove_cvref_t<decltype(op)>;
-        if constexpr (std::is_same_v<Op, record::ops::Bricks> || std::is_same_v<Op, record::ops::Checkpoint>)
-          if (op.tick >= 1500) return;
-        if constexpr (!std::is_same_v<Op, record::ops::End>) writer.add(op);
-      });
-      writer.close_chunk();
-    }
-    writer.sync();
-  }
+  const auto cut = killed_recording(recording, reaming_.folder().path() / "killed.ream", 1500);
   const uint32_t last = record::Recording(cut).last_checkpoint()->tick;
   ASSERT_LT(last, 1500u);
   TwinPlayer player;

@@ -213,7 +213,7 @@ export const reviewText = {
     stl: ['Bone (STL)', 'The reamed surface'],
     ply: ['Bone, implant, map (PLY)', 'Reamed surface and seated implant, coloured by deviation from the plan'],
     glb: ['Bone, implant, map (GLB)', 'The same for glTF viewers'],
-    review: ['Review to send (HTML)', 'This review as one file. It opens in any browser, without a server.'],
+    review: ['Review to send (HTML)', 'This review as one file. It opens in a browser, without a server.'],
   } as const,
   scoreFile: 'Score (JSON)',
   scoreFileHint: 'Every metric with definition, unit, source and limits',
