@@ -19,7 +19,7 @@ struct SessionContext {
   std::shared_ptr<sim::CpuAllocator> cpus = std::make_shared<sim::CpuAllocator>();
   double tool_spacing_mm = 0.3;  ///< of the points that feel bone
   std::shared_ptr<openigtlink::ActiveSession> openigtlink_session = nullptr;  ///< null: nobody watches by it
-  std::filesystem::path page = {};  ///< page_folder(), for review files
+  std::filesystem::path page = {};        ///< page_folder(), for review files
   int64_t (*guard_now_ns)() = steady_ns;  ///< the clock by which each loop is watched; see sim::LoopGuard
 };
 

@@ -165,6 +165,7 @@ test('a session is gone through, mapped, measured, judged and taken home', async
   for (const [format, ending] of [
     ['html', 'html'],
     ['stl', 'stl'],
+    ['review', 'review.html'],
   ] as const) {
     const download = page.waitForEvent('download', { timeout: 90_000 });
     await page.getByTestId(`export-${format}`).click();
