@@ -5,6 +5,7 @@
 
 #include "collide/removal/removal_schedule.hpp"
 #include "fuzz_input.hpp"
+#include "record/tick_report.hpp"
 #include "twin/cause_parts.hpp"
 #include "twin/twin_player.hpp"
 
@@ -38,12 +39,35 @@ shell::SweptProfile ball(const voxel::VoxelGrid& grid) {
   return p;
 }
 
+constexpr uint32_t rows_of_good_part = 10;
+
+/// Parts that follow each other after the segment and agree: the ball sinks into the bone.
+std::vector<twin::Bytes> good_ticks() {
+  twin::BoneTwin twin(small_bone());
+  twin.begin_segment(ball(twin.bone().grid));
+  std::vector<twin::Bytes> parts;
+  const Vec3 middle_mm = twin.bone().grid.bounds_mm().centre();
+  for (uint32_t first = 0; first < 8 * rows_of_good_part; first += rows_of_good_part) {
+    std::vector<twin::CauseTick> rows(rows_of_good_part);
+    for (uint32_t i = 0; i < rows_of_good_part; ++i) {
+      Pose pose;
+      pose.translation_mm = middle_mm + Vec3(0.0, 0.0, 3.0 - 0.05 * (first + i));
+      rows[i] = {first + i, record::engaged_flag | record::cutting_flag, quantised(pose)};
+      twin.step(rows[i]);
+    }
+    parts.push_back(twin::ticks_part(rows, twin.session_hash()));
+  }
+  return parts;
+}
+
 }  // namespace
 
-/// First byte: how many good parts come first. Then parts, each after two bytes of its length.
+/// First byte: how many good parts come first. Then what is done: a part is taken, after two bytes of its
+/// length, or the next good one, or a snapshot is kept, or gone to.
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const twin::Bytes start = twin::start_part(small_bone());
   static const twin::Bytes segment = twin::segment_part(0, ball(small_bone().grid));
+  static const std::vector<twin::Bytes> ticks = good_ticks();
   fuzz::Input input(data, size);
   const int good = input.byte() % 3;
   twin::TwinPlayer player;
@@ -51,16 +75,25 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (good > 0) player.take(start);
   if (good > 1) player.take(segment);
   while (!input.empty()) {
-    const uint8_t then = input.byte();
-    const std::string_view part = input.piece();
+    const uint8_t what = input.byte();
     const auto before = player.agreed_ticks();
-    player.take(std::as_bytes(std::span(part.data(), part.size())));
-    fuzz::require(player.agreed_ticks() >= before, "ticks were taken back");
-    if (then < 64)
-      if (const auto kept = player.keep_snapshot()) snapshots = std::max(snapshots, *kept + 1);
-    if (then >= 192)
-      fuzz::require(player.go_to(then % 8u) == (then % 8u < snapshots),
-                    "a snapshot that was not kept, or one that is gone");
+    switch (what % 4) {
+      case 0: {
+        const std::string_view part = input.piece();
+        player.take(std::as_bytes(std::span(part.data(), part.size())));
+        fuzz::require(player.agreed_ticks() >= before, "ticks were taken back");
+        break;
+      }
+      case 1: player.take(ticks[before / rows_of_good_part % ticks.size()]); break;
+      case 2:
+        if (const auto kept = player.keep_snapshot()) snapshots = std::max(snapshots, *kept + 1);
+        break;
+      default: {
+        const size_t to = what / 4 % 8;
+        fuzz::require(player.go_to(to) == (to < snapshots),
+                      "a snapshot that was not kept, or one that is gone");
+      }
+    }
   }
   if (twin::BoneTwin* twin = player.twin()) {
     for (const uint32_t block : twin->take_changed_blocks()) twin->surface_of(block);

@@ -109,7 +109,16 @@ def causes() -> list[bytes]:
     planes = b"".join(word.to_bytes(4, "big") for word in words)
     ticks = b"\x03" + struct.pack("<2IQ", 0, 1, 0) + bytes(len(words)) + planes
     end = b"\x04" + struct.pack("<IQI", 0, 0, 0)
-    return [b"\x00" + piece(start), b"\x01" + piece(end), b"\x02" + piece(ticks) + piece(end)]
+    def take(part: bytes) -> bytes:
+        return b"\x00" + piece(part)
+
+    good, keep, back = b"\x01", b"\x02", b"\x03"
+    return [
+        b"\x00" + take(start),
+        b"\x01" + take(end),
+        b"\x02" + take(ticks) + take(end),
+        b"\x02" + keep + good * 3 + keep + good * 2 + back + good * 6 + keep + b"\x07" + good,
+    ]
 
 
 def backup() -> list[bytes]:
