@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "collide/removal/removal_schedule.hpp"
@@ -110,17 +112,13 @@ std::vector<uint8_t> within_reach(const voxel::VoxelGrid& grid, int reach, bool 
 /// vertex is looked up less than two voxels from one that is gone. Each code is one that looks the same, so
 /// that there are few.
 std::vector<uint8_t> shown_density(const voxel::BoneModel& start, const record::RecordedBone& left) {
-  std::array<uint8_t, 256> shown{};
   const stream::SurfaceClasses classes(start);
-  for (size_t code = 0; code < shown.size(); ++code) {
-    const auto c = static_cast<uint8_t>(code);
-    // The least that looks so; 0 stands for what is not told.
-    shown[c] = c;
-    for (uint8_t less = c; less-- > 1;)
-      if (classes.class_of(less) == classes.class_of(c) &&
-          stream::SurfaceClasses::packed_densities(std::array{less}) ==
-              stream::SurfaceClasses::packed_densities(std::array{c}))
-        shown[c] = less;
+  std::map<std::pair<voxel::BoneClass, std::vector<uint8_t>>, uint8_t> first_that_looks;
+  std::array<uint8_t, 256> shown{};  // 0 stands for what is not told
+  for (size_t i = 1; i < shown.size(); ++i) {
+    const auto code = static_cast<uint8_t>(i);
+    const std::pair looks(classes.class_of(code), stream::SurfaceClasses::packed_densities(std::array{code}));
+    shown[code] = first_that_looks.try_emplace(looks, code).first->second;
   }
   std::vector<uint8_t> coverage = start.coverage;
   left.write_to(coverage);

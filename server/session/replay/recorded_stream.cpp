@@ -114,9 +114,9 @@ std::vector<ReplayMark> recorded_marks(const record::Recording& recording) {
 }
 
 shell::Tool tool_of_segment(const record::Recording& recording, size_t segment) {
-  const std::string path = recording.log().path().string();
   if (segment >= recording.segments().size())
-    throw Error(ErrorKind::invalid_input, path + " does not say which reamer was used");
+    throw Error(ErrorKind::invalid_input,
+                recording.log().path().string() + " does not say which reamer was used");
   return tool_of(recorded_reamer(recording, recording.segments()[segment]));
 }
 

@@ -1,3 +1,6 @@
+/** Whether a file is damaged that could not be read: by its layout, or by its packing, of which DecompressionStream says TypeError. */
+export const isDamage = (error: unknown): boolean => error instanceof PartFileError || error instanceof TypeError;
+
 /** What a file of parts is: the 8 bytes that it begins with, and the revision that is read here. */
 export interface PartFileKind {
   magic: string;

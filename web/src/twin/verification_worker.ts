@@ -1,5 +1,5 @@
 /** Worker: computes a session's bone again from a file of causes, off the page's thread. */
-import { causeFile, PartFileError, partsOf } from './part_file';
+import { causeFile, isDamage, partsOf } from './part_file';
 import { type Outcome, TwinModule } from './twin_module';
 
 /** Page to worker: what is computed, and by what; each where it is, or itself. */
@@ -55,8 +55,7 @@ async function verified({ causes, module }: VerificationRequest): Promise<Verifi
       page.postMessage({ kind: 'ticks', ticks: twin.agreedTicks });
     }
   } catch (error) {
-    // The one of what is read here, the other of DecompressionStream.
-    if (!(error instanceof PartFileError || error instanceof TypeError)) throw error;
+    if (!isDamage(error)) throw error;
     console.error(error);
     return result('damaged');
   }

@@ -43,7 +43,7 @@ export function ReviewPane({ pane, place, workspace }: Parts) {
       <div class="pane-head">
         {several && <PaneTitle place={place} workspace={workspace} />}
         <MomentBar session={session} />
-        <EventList session={session} mayAnnotate={workspace.mayAnnotate} />
+        <EventList session={session} mayAnnotate={workspace.page.mayAnnotate} />
       </div>
       <PanePicture pane={pane} workspace={workspace} />
       <PlaybackBar store={session.store} player={session.player} marks={session.marks.value}>
@@ -117,7 +117,7 @@ function PanePicture({ pane, workspace }: { pane: Pane; workspace: ReviewWorkspa
       {error === null ? (
         <LinkNotice store={store} mayReam={false} />
       ) : (
-        <SessionErrorNotice session={session} served={workspace.served} />
+        <SessionErrorNotice session={session} served={workspace.page.served} />
       )}
       {store.recordingWarning.value !== null && (
         <p class="picture-note note-top" role="status" data-testid="recording-warning">

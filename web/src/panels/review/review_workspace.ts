@@ -31,16 +31,9 @@ export class ReviewWorkspace {
 
   constructor(
     private readonly openSources: () => OpenSources,
-    private readonly page: { served: boolean; mayAnnotate: boolean },
+    /** `served`: whether it has a server, with other pages and other sessions. */
+    readonly page: { readonly served: boolean; readonly mayAnnotate: boolean },
   ) {}
-
-  /** Whether the page has a server, with other pages and other sessions. */
-  get served(): boolean {
-    return this.page.served;
-  }
-  get mayAnnotate(): boolean {
-    return this.page.mayAnnotate;
-  }
 
   /** What stays in its place stays as it is. */
   show(ids: readonly string[]): void {
